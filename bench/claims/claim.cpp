@@ -56,7 +56,7 @@ void requireRange(const Claim& claim) {
         throw InputError(claim.where + "claim " + claim.id + ": 'min' is above 'max'");
 }
 
-/// Reads the data of a rule. Keys that the table lacks keep their values if `rule` has some already.
+/// Reads the data of a rule. A key that is missing in the table keeps its value if `rule` already has one.
 void readData(files::TomlReader& table, Rule& rule) {
     const auto wanted = [&](const char* key, bool missing) { return missing || table.has(key); };
     if (rule.quantity == Quantity::finding) {
@@ -123,7 +123,7 @@ std::vector<Claim> readClaims(files::TomlReader file) {
     for (files::TomlReader& table : file.tables("claim")) {
         claims.push_back(readClaim(table));
         if (std::ranges::count(claims, claims.back().id, &Claim::id) > 1)
-            throw InputError(claims.back().where + "claim " + claims.back().id + ": is there twice");
+            throw InputError(claims.back().where + "claim " + claims.back().id + " appears twice");
     }
     file.finish();
     return claims;
@@ -182,7 +182,7 @@ std::string Rule::textOf(double value) const {
     if (!std::isfinite(value)) return "";
     if (quantity == Quantity::value && per.empty() && column.ends_with("_bytes"))
         return fmt::format("{:.4g} MB", value / 1e6);
-    // A power of ten is harder to read than a few digits more.
+    // A few more digits are easier to read than a power of ten.
     return std::abs(value) >= 1e4 && std::abs(value) < 1e9 ? fmt::format("{:.0f}", value)
                                                            : fmt::format("{:.4g}", value);
 }

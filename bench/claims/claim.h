@@ -1,8 +1,8 @@
 // A measurable statement of a paper, and the rule that compares our results with it.
 //
-// `data/papers/<id>/claims.toml` contains the claims; data/papers/README.md documents every key. A rule is a quantity
-// computed from the rows of summary.csv, or a finding of an experiment, and the range in which the claim is true. Each
-// rule has controls: data for which the outcome is known, so that a rule that cannot fail is noticed.
+// `data/papers/<id>/claims.toml` contains the claims; data/papers/README.md documents every key. A rule consists of a
+// quantity, computed from the rows of summary.csv or found by an experiment, and of the range in which the claim is
+// true. Each rule has controls: data with a known outcome, which detect a rule that cannot fail.
 #pragma once
 
 #include <filesystem>
@@ -36,34 +36,34 @@ inline constexpr Choices<Quantity> quantityWords{{"none", Quantity::none},      
                                                  {"slopes", Quantity::slopes},   {"exponent", Quantity::exponent},
                                                  {"value", Quantity::value},     {"finding", Quantity::finding}};
 
-/// What a quantity is measured over again, and thus where its interval comes from.
+/// The repetitions from which the interval of a quantity is computed.
 enum class Chance {
-    repetitions,  ///< the time on a machine: again in each repetition
-    seeds,        ///< what depends on the random cloud: again for each seed
-    none          ///< bytes and the like: the same each time, without interval
+    repetitions,  ///< for times, which vary between repetitions
+    seeds,        ///< for quantities that depend on the random cloud, which vary between seeds
+    none          ///< for quantities such as bytes, which do not vary and have no interval
 };
 
-/// The verdict that a control must give.
+/// The known verdict of a control.
 enum class ControlOutcome { refuted, confirmed };
 
-/// The rows with these cells: `method` → `billboard`, `p.soft` → `true`.
+/// Selects rows by the values of columns: `method` → `billboard`, `p.soft` → `true`.
 using Selection = std::vector<std::pair<std::string, std::string>>;
 
-/// Parses `billboard soft=true`: a method, then cells of parameters; or cells alone. `scene` and `drive` are columns,
-/// any other name is a parameter's. Messages begin with `what`. Throws InputError.
+/// Parses `billboard soft=true`: a method, then values of parameters; or values alone. `scene` and `drive` are columns,
+/// any other name is a parameter. Messages begin with `what`. Throws InputError.
 [[nodiscard]] Selection parseSelection(const std::string& text, const std::string& what);
-/// The same as text.
+/// The selection as text.
 [[nodiscard]] std::string textOf(const Selection& selection);
-/// The values that a bar separates: `10|40`.
+/// The values separated by bars: `10|40`.
 [[nodiscard]] std::vector<std::string> alternativesIn(const std::string& text);
 /// `particles` for the column `p.particles`.
 [[nodiscard]] std::string nameOf(const std::string& column);
-/// Edge of the finest voxels, world_edge / 2^depth: a condition may be told along it in place of the depth.
+/// Edge of the finest voxels, world_edge / 2^depth: a condition may be stated along it instead of the depth.
 inline constexpr std::string_view voxelEdgeColumn = "p.voxel_edge";
 /// Throws InputError if summary.csv has no such column. Parameters, `p.…`, may have any name.
 void requireColumn(const std::string& where, const std::string& name);
 
-/// What is computed, from which data, and the range in which a claim is true.
+/// A quantity, the data from which it is computed, and the range in which a claim is true.
 struct Rule {
     Quantity quantity = Quantity::none;
     std::string suite;  ///< or, for a finding:
@@ -74,9 +74,9 @@ struct Rule {
     std::vector<std::string> parts;  ///< for a share: the columns whose sum is the numerator
     std::string match;               ///< for a matched ratio: the column that is the same
     Selection of, with;              ///< both for a ratio, otherwise only `of`
-    std::string against;             ///< the load, for all that follows a curve
+    std::string against;             ///< the load, for quantities computed from a curve
     Chance over = Chance::repetitions;
-    std::string along;  ///< the column along which a condition is told; empty: whichever tells it best
+    std::string along;  ///< the column along which a condition is stated; empty: the one that separates the cells
     std::optional<double> minimum, maximum;  ///< the range in which the claim is true
 
     [[nodiscard]] bool isTrueAt(double value) const {
@@ -84,28 +84,28 @@ struct Rule {
     }
     /// `0.9 to 1.1`, `3 or more`.
     [[nodiscard]] std::string expected() const;
-    /// A value of the quantity in four digits, for reading: bytes as `2.175 MB`; empty for NaN.
+    /// A value of the quantity with four digits: bytes as `2.175 MB`; empty for NaN.
     [[nodiscard]] std::string textOf(double value) const;
-    /// What is computed: `build_ms_median: octree_recursive over octree_search`.
+    /// The quantity in words: `build_ms_median of octree_recursive over that of octree_search`.
     [[nodiscard]] std::string inWords() const;
 };
 
 /// Data for which the outcome of a claim's rule is known.
 struct ControlRule {
-    Rule rule;  ///< the claim's own, with other data
+    Rule rule;  ///< the claim's rule with other data
     ControlOutcome gives = ControlOutcome::refuted;
     std::string why;  ///< why this outcome is known
 };
 
 struct Claim {
     std::string id;       ///< `R5a`
-    std::string text;     ///< what the paper says, in our words
-    bool device = false;  ///< its sense is that of the device: the verdict is told of the device measured
+    std::string text;     ///< the paper's statement in our words
+    bool device = false;  ///< the claim depends on the device: the verdict holds for the measured device
     Rule rule;
-    std::string reason;  ///< of the range; not taken from results
+    std::string reason;  ///< for the range; independent of the results
     std::vector<ControlRule> controls;
     std::string missing;  ///< why it is not testable
-    std::string where;    ///< `file:line: `; messages begin with it
+    std::string where;    ///< `file:line: `, the beginning of messages
 };
 
 /// All claims of a paper, in the order of its file; none if the file does not exist. Throws InputError with file and

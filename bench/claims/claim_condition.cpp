@@ -1,4 +1,4 @@
-// The words that say in which cells a claim is true.
+// Describes in words for which cells (configurations) a claim is true.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using files::numberOf;
 
-/// The values that a column has in the true cells, and in the false ones.
+/// The values of a column in the cells where the claim is true, and where it is false.
 struct Sides {
     std::set<std::string> holding, failing;
 };
@@ -49,7 +49,7 @@ std::string whereOf(const std::string& column) {
     return column.starts_with("with ") ? column : "for " + nameOf(column);
 }
 
-/// `true for speed up to 10, false from 20`, if one column tells true cells from false ones; else empty.
+/// `true for speed up to 10, false from 20`, if this column separates true cells from false ones; otherwise empty.
 std::string separationBy(const std::string& column, const Sides& sides) {
     const auto holding = rangeOf(sides.holding), failing = rangeOf(sides.failing);
     const std::string where = whereOf(column);
@@ -72,7 +72,7 @@ std::vector<std::string> columnsOf(const std::vector<ClaimCell>& cells) {
     return columns;
 }
 
-/// Names the true cells or the false ones, whichever are fewer, if they fit in a line.
+/// Lists the true or the false cells, whichever are fewer, unless there are too many.
 std::string listed(const std::vector<ClaimCell>& cells) {
     constexpr std::size_t maximumListed = 3;
     std::vector<std::string> holding, failing;
@@ -88,7 +88,7 @@ std::string listed(const std::vector<ClaimCell>& cells) {
     return text;
 }
 
-/// `2 to 8`: values of an axis that follow each other there; `0.5, 2 to 8`.
+/// `0.5, 2 to 8`: values that are neighbours on the axis are joined.
 std::string rangesText(const std::vector<double>& values, const std::vector<double>& axis) {
     std::vector<std::string> texts;
     for (auto value = values.begin(); value != values.end();) {
@@ -115,8 +115,8 @@ std::string rowText(const std::map<double, ClaimVerdict>& row, const std::vector
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-/// The map of verdicts: along `column` by what else varies; rows that are alike share a line. Empty if a cell has no
-/// number there.
+/// The verdicts along `column` for each combination of the other columns. Combinations with the same verdicts are
+/// joined. Empty if a cell has no number in `column`.
 std::string mapAlong(const std::vector<ClaimCell>& cells, const std::string& column) {
     std::map<std::string, std::map<double, ClaimVerdict>> rows;
     std::vector<std::string> order;  // of the rows

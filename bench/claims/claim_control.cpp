@@ -25,7 +25,7 @@ std::string outcomeText(const ControlRule& control, const ClaimResult& found) {
                        control.why);
 }
 
-/// True if a verdict can be checked: another one is possible, and a control shows it.
+/// True if the control shows that another verdict than this one is possible.
 bool isOpposite(ClaimVerdict verdict, ControlOutcome outcome) {
     if (verdict == ClaimVerdict::confirmed) return outcome == ControlOutcome::refuted;
     if (verdict == ClaimVerdict::refuted) return outcome == ControlOutcome::confirmed;

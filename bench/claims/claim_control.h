@@ -1,7 +1,7 @@
-// Runs the controls of a claim's rule: data for which the verdict is known.
+// Evaluates the controls of a claim's rule: data for which the verdict is known.
 //
-// A rule that gives another verdict on its control than is known cannot be trusted on the claim either: the claim is
-// `untestable`, whatever was measured. Threads: pure.
+// If a rule gives a wrong verdict on a control, it cannot be trusted on the claim either: the claim is `untestable`,
+// whatever was measured. Threads: pure.
 #pragma once
 
 #include <functional>
@@ -10,13 +10,13 @@
 
 namespace dustbench::bench {
 
-/// Judges any rule by the data at hand.
+/// Evaluates a rule with the available data.
 using RuleJudge = std::function<ClaimResult(const Rule&)>;
 
-/// The verdict that a control must give.
+/// The verdict that a control is known to have.
 [[nodiscard]] ClaimVerdict verdictOf(ControlOutcome outcome);
 
-/// Judges the claim and its controls.
+/// Evaluates the claim and its controls.
 [[nodiscard]] ClaimResult judgeWithControls(const Claim& claim, const RuleJudge& judge);
 
 }  // namespace dustbench::bench

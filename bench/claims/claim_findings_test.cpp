@@ -1,4 +1,4 @@
-// Claims on what experiments without runs find.
+// Claims that are decided by the findings of experiments, without runs.
 #include <gtest/gtest.h>
 
 #include "bench/claims/claim_verdict.h"

@@ -39,7 +39,7 @@ std::string cellsText(const std::vector<ClaimCell>& cells) {
     return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-/// Counted through, so it is held to its limit.
+/// Callers loop up to this number, so it must be within its limit.
 int repetitionIn(const files::CsvTable& summary, std::size_t row) {
     const double number = summary.number(row, "repetition");
     if (!(number >= 1 && number <= files::limits::repetitions))
@@ -107,7 +107,7 @@ std::string claimsCsv(const std::vector<JudgedClaim>& claims) {
 }
 
 TextRows tabulate(const std::vector<JudgedClaim>& claims) {
-    TextRows table{{"claim", "verdict", "control", "measured", "interval", "expected", "what the paper says"}, {}};
+    TextRows table{{"claim", "verdict", "control", "measured", "interval", "expected", "the paper's claim"}, {}};
     for (const JudgedClaim& judged : claims) {
         const auto& [paper, claim, result] = judged;
         std::string text = claim.text;

@@ -1,4 +1,4 @@
-// Judges the claims of a paper against a results folder's summary.csv and experiments.csv, for claims.csv and the
+// Evaluates the claims of a paper with a results folder's summary.csv and experiments.csv, for claims.csv and the
 // console.
 #pragma once
 
@@ -20,11 +20,10 @@ struct JudgedClaim {
 /// `confirmed`, or `confirmed on this device` if the claim is about the device.
 [[nodiscard]] std::string verdictText(const JudgedClaim& judged);
 
-/// Run ids of the suite, in its whole and its quick form, for every repetition number in the table.
+/// Ids of the suite's full and quick runs, for every repetition number in the table.
 [[nodiscard]] std::set<std::string> runIdsOf(const std::string& suite, const files::CsvTable& summary);
 
-/// Judges each claim and its controls by the runs of their suites, in whole and quick form, or by findings of
-/// experiments.
+/// Evaluates each claim and its controls with the full and quick runs of their suites, or with findings of experiments.
 /// Throws InputError for a claims.toml or a suite that cannot be read.
 [[nodiscard]] std::vector<JudgedClaim> judgeClaims(const std::string& paper, const files::CsvTable& summary,
                                                    const std::vector<StoredFinding>& findings = {});

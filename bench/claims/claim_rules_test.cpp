@@ -1,4 +1,4 @@
-// Each kind of rule, judged by results with a known answer. Over 400 lines: all kinds share the same results.
+// Each kind of rule, evaluated on results with a known answer. Over 400 lines: all kinds share the same results.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ files::CsvTable table(const ValueOf& value) {
     return files::CsvTable::parseText(text, "summary.csv");
 }
 
-/// Scatter of about one percent; deterministic.
+/// Deterministic scatter of about one per cent.
 double scatter(int particles, int repetition, std::uint32_t stream) {
     const auto words = maths::randomWords(
         9, stream, static_cast<std::uint64_t>(particles) * 100 + static_cast<std::uint64_t>(repetition));
@@ -91,7 +91,7 @@ TEST(ClaimRules, ARatioPairsTheSameWorldAndRepetitionAlone) {
     EXPECT_NEAR(result.high, 0.97, 1e-9);
 }
 
-/// Times less a baseline, of either sign: one for each repetition, the same in every world.
+/// Times minus a baseline, of either sign: one for each repetition, the same in every world.
 ValueOf differences(const std::vector<double>& mist, double ratio) {
     return [=](const std::string& method, int, int repetition) {
         return (method == "haze" ? ratio : 1) * mist[static_cast<std::size_t>(repetition - 1)];
@@ -200,7 +200,7 @@ TEST(ClaimRules, ATrendIsTheRankCorrelationWithTheLoad) {
         return particles == 400 ? 1.0 : particles * scatter(particles, repetition, 6);
     };
     EXPECT_EQ(judged(rule, upAndDown).verdict, ClaimVerdict::refuted);
-    // Student's interval of −1 and 1 by turns is wider than what a correlation can be.
+    // Student's interval of alternating −1 and 1 is wider than the range of a correlation.
     const auto byTurns = [](const std::string&, int particles, int repetition) {
         return repetition % 2 ? 1.0 * particles : 1000.0 - particles;
     };
@@ -250,7 +250,7 @@ TEST(ClaimRules, ACrossoverIsNotHiddenByTheMean) {
 }
 
 TEST(ClaimRules, ADisagreementByChanceIsNoCondition) {
-    // All cells of equal speed: some interval of 95 % lies beside 1 now and then, but not after Bonferroni.
+    // All cells have equal speed: some 95 % intervals exclude 1 by chance, but hardly any with Bonferroni's correction.
     int depends = 0;
     constexpr int trials = 400;
     for (int trial = 0; trial < trials; ++trial) {
@@ -276,7 +276,7 @@ TEST(ClaimRules, WhatNeedsNoRepetitionHoldsInAllCellsOrNone) {
         "true for particles up to 200, false from 400");
 }
 
-/// Rows of both methods for each seed, one of them invalid if asked: `value(method, seed)` is the metric.
+/// Rows of both methods for each seed, optionally with an invalid one. `value(method, seed)` is the metric.
 files::CsvTable seedTable(int seeds, const std::function<double(bool, int)>& value, int invalidSeed = 0) {
     std::string text = "run_id,status,method,scene,seed,repetition,invalid,popping\n";
     for (const bool haze : {true, false})
@@ -290,7 +290,7 @@ const std::string bySeed =
     "quantity = \"ratio\"\ncolumn = \"popping\"\nof = \"haze\"\nwith = \"mist\"\nover = \"seeds\"\nmax = 1\n";
 
 TEST(ClaimRules, ChanceIsMeasuredOverSeedsAndPairedByThem) {
-    // Clouds differ by a factor of ten; only pairs of one cloud show that haze pops a tenth less.
+    // Clouds differ by a factor of ten; only pairs with the same cloud show that haze pops a tenth less.
     const auto value = [](bool haze, int seed) { return (haze ? 0.9 : 1) * seed * scatter(seed, 1, haze ? 7 : 8); };
     const files::CsvTable ten = seedTable(10, value);
     const ClaimResult result = judgeRule(ruledClaim(bySeed).rule, ResultRows(ten, nullptr));
@@ -313,11 +313,11 @@ TEST(ClaimRules, InvalidRunsAreNotUsed) {
     EXPECT_EQ(result.cells.at(0).turns, 5u);
     const files::CsvTable one = seedTable(1, value, 1);
     EXPECT_EQ(judgeRule(ruledClaim(bySeed).rule, ResultRows(one, nullptr)).note,
-              "no popping of haze in a run of s that is done and valid: clipped (1 run)");
+              "no popping of haze in a completed run of s; invalid: clipped (1 run)");
 }
 
 TEST(ClaimRules, EachVariantOfARatioIsACellOfItsOwn) {
-    // Mist in two layouts, of which haze beats one only.
+    // Mist in two layouts; haze is better than only one of them.
     std::string text = "run_id,status,method,scene,repetition,p.layout,frame_ms_median\n";
     for (int repetition = 1; repetition <= rulesRepetitions; ++repetition)
         for (const auto& [method, layout, ms] :
@@ -338,7 +338,7 @@ TEST(ClaimRules, WhatBothSidesNameAlikeIsPaired) {
     EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
     ASSERT_EQ(result.cells.size(), 2u);
     EXPECT_EQ(textOf(result.cells[0].cell), "particles=100");
-    // Named differently, they are crossed by intention.
+    // If the names differ, the pairs are crossed intentionally.
     const std::string crossed =
         "quantity = \"ratio\"\ncolumn = \"frame_ms_median\"\nof = \"haze particles=100|800\"\n"
         "with = \"mist particles=100\"\nmax = 1\n";
@@ -365,7 +365,7 @@ ValueOf ratioBy(const std::function<double(int, int)>& ratio) {
 }
 
 TEST(ClaimRules, CounterexamplesRefuteAlthoughACellIsOpen) {
-    // 1.4 times as slow; where a cell is open, repetitions scatter by a factor, in pairs so that the mean stays.
+    // 1.4 times as slow. In undecided cells, repetitions scatter by a factor in both directions, so the mean stays.
     const auto openAt = [](const std::vector<int>& open, double factor) {
         return ratioBy([=](int particles, int repetition) {
             const auto place = std::ranges::find(open, particles);
@@ -378,25 +378,25 @@ TEST(ClaimRules, CounterexamplesRefuteAlthoughACellIsOpen) {
     EXPECT_EQ(result.verdict, ClaimVerdict::refuted);
     EXPECT_EQ(result.note, "of 4 cells, 0 confirmed, 3 refuted");
     EXPECT_TRUE(result.condition.empty());
-    // Half of the cells do not suffice, though the mean is as far outside.
+    // Half of the cells do not suffice, although the mean is just as far outside.
     const ClaimResult half = judged(faster, openAt({400, 800}, 2));
     EXPECT_EQ(half.verdict, ClaimVerdict::unresolved);
     EXPECT_GT(half.low, 1.3);
-    // Nor do three of four cells whose mean is open.
+    // Nor do three of four cells if the mean is undecided.
     EXPECT_EQ(judged(faster, openAt({800}, 50)).verdict, ClaimVerdict::unresolved);
-    // Nor, where the open cell rather holds.
+    // Nor if the undecided cell is more likely true.
     const auto leaning = ratioBy([](int particles, int repetition) {
         return particles < 800 ? 1.4 : 0.9 * (repetition % 2 == 0 ? 1.5 : 1 / 1.5);
     });
     const ClaimResult undecided = judged(faster, leaning);
     EXPECT_EQ(undecided.verdict, ClaimVerdict::unresolved);
     EXPECT_GT(undecided.low, 1);
-    // Whatever is open, nothing but all cells confirms.
+    // Only all cells together confirm the claim.
     const auto quicker = ratioBy([](int particles, int repetition) {
         return 0.7 * (particles < 800 ? 1 : repetition % 2 == 0 ? 2 : 0.5);
     });
     EXPECT_EQ(judged(faster, quicker).verdict, ClaimVerdict::unresolved);
-    // A cell that is true for certain makes it depend.
+    // With a cell that is certainly true, the verdict is `depends`.
     EXPECT_EQ(judged(faster, ratioBy([](int particles, int) { return particles == 100 ? 0.7 : 1.4; })).verdict,
               ClaimVerdict::depends);
 }
@@ -418,7 +418,7 @@ ClaimResult judgedOverEdges(const std::function<double(int, int)>& value) {
 }
 
 TEST(ClaimRules, AConditionCanBeToldAlongAnAxis) {
-    // Edges 8, 4, 2, 1, 0.5 m: true from 2 m on at 5 and 10 m/s, at 1 m and 8 m alone at 40 m/s.
+    // Edges 8, 4, 2, 1, 0.5 m: true from 2 m on at 5 and 10 m/s, but only at 1 m and 8 m at 40 m/s.
     const ClaimResult result = judgedOverEdges([](int depth, int speed) {
         const double edge = 128.0 / (1 << depth);
         return (speed < 40 ? edge >= 2 : edge == 1 || edge == 8) ? 0.5 : 2;
@@ -428,7 +428,7 @@ TEST(ClaimRules, AConditionCanBeToldAlongAnAxis) {
               "by voxel_edge: true for 2 to 8, false for 0.5 to 1 (speed=10, speed=5); true for 1, 8, false for 0.5, 2 "
               "to 4 (speed=40)");
     EXPECT_EQ(judgedOverEdges([](int, int) { return 0.5; }).condition, "");
-    // Where a value is as large as its limit nothing is known.
+    // Values equal to their limit are undecided.
     EXPECT_EQ(judgedOverEdges([](int depth, int) { return depth == 4   ? 0.5
                                                           : depth == 5 ? 0.997
                                                                        : 2; }).condition,
@@ -451,7 +451,7 @@ TEST(ClaimRules, AMatchedRatioIsTakenWhereTheOtherColumnIsTheSame) {
     const ClaimResult result = judgeRule(ruledClaim(rule).rule, ResultRows(rows, nullptr));
     EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
     EXPECT_NEAR(result.measured, 0.25, 0.002);
-    // At 1600 and 3200 haze has fewer gaps than mist ever gets to.
+    // With 1600 and 3200 particles, haze has fewer gaps than mist ever reaches.
     EXPECT_EQ(result.cells.size(), 4u);
     EXPECT_EQ(result.note, "12 runs left out: no gaps of mist is equal to theirs");
 }
@@ -506,7 +506,7 @@ TEST(ClaimControls, RunsThatAreMissingAreSaid) {
 TEST(ClaimRules, WhatIsMissingIsNamed) {
     const auto none = [](const std::string&, int, int) { return std::nan(""); };
     EXPECT_EQ(judged(faster, none).verdict, ClaimVerdict::notTested);
-    EXPECT_EQ(judged(faster, none).note, "no frame_ms_median of haze in a run of s that is done");
+    EXPECT_EQ(judged(faster, none).note, "no frame_ms_median of haze in a completed run of s");
     const Claim untestable =
         parseClaims("[[claim]]\nid = \"X\"\ntext = \"t\"\nquantity = \"none\"\nmissing = \"no numbers\"", "c").at(0);
     EXPECT_EQ(untestable.missing, "no numbers");

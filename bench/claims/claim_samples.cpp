@@ -16,7 +16,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Columns that do not distinguish cells: the seed where it is the turn, and the load of a curve.
+/// Columns that do not distinguish cells: the seed if it is the turn, and the load of a curve.
 std::set<std::string> columnsWithin(const Rule& rule) {
     std::set<std::string> columns;
     if (rule.over == Chance::seeds) columns.insert("seed");
@@ -24,7 +24,7 @@ std::set<std::string> columnsWithin(const Rule& rule) {
     return columns;
 }
 
-/// Puts the edge of the finest voxels in place of the depth.
+/// Replaces the depth by the edge of the finest voxels.
 void tellEdge(Selection& cell, const std::string& worldEdge) {
     const auto depth = std::ranges::find(cell, "p.depth", &Selection::value_type::first);
     if (depth == cell.end()) return;
@@ -32,7 +32,7 @@ void tellEdge(Selection& cell, const std::string& worldEdge) {
     if (world && levels) *depth = {std::string(voxelEdgeColumn), fmt::format("{:g}", *world / std::exp2(*levels))};
 }
 
-/// Collects values under keys, and gives the keys as cells in the end.
+/// Collects values by key, and finally turns the keys into cells.
 class SampleTable {
  public:
     SampleTable(const Rule& rule, const ResultRows& rows) : rule_(rule), rows_(rows), within_(columnsWithin(rule)) {}
@@ -47,7 +47,7 @@ class SampleTable {
     }
     [[nodiscard]] bool empty() const { return values_.empty(); }
 
-    /// The values of one cell and turn are averaged; of what does not depend on the turn the first is taken.
+    /// Averages the values of each cell and turn. If the quantity does not vary between repetitions, takes the first.
     void giveTo(ClaimSamples& samples) const {
         std::vector<std::string> keys;
         keys.reserve(values_.size());
@@ -95,8 +95,8 @@ std::optional<double> valueOf(const Rule& rule, const ResultRows& rows, std::siz
 
 std::string missingOf(const Rule& rule, const Selection& selection, const ResultRows& rows) {
     const std::string invalid = rows.invalidAmong(selection);
-    return fmt::format("no {} of {} in a run of {} that is done{}", rule.column, textOf(selection), rule.suite,
-                       invalid.empty() ? "" : " and valid: " + invalid);
+    return fmt::format("no {} of {} in a completed run of {}{}", rule.column, textOf(selection), rule.suite,
+                       invalid.empty() ? "" : "; invalid: " + invalid);
 }
 
 /// The selected rows that have a value in the column.
@@ -110,8 +110,8 @@ std::vector<std::size_t> rowsWith(const Rule& rule, const Selection& selection, 
     return chosen;
 }
 
-/// Columns in which the two sides of a ratio differ by intention: those that a side names. What both name alike, as
-/// `speed=5|10`, does not count as a difference: 5 is paired with 5.
+/// Columns in which the two sides of a ratio may differ: those that a side names. If both name the same values, as in
+/// `speed=5|10`, the column must be equal: 5 is paired with 5.
 std::set<std::string> namedColumns(const Rule& rule) {
     std::set<std::string> named;
     for (const Selection* side : {&rule.of, &rule.with})
@@ -134,11 +134,11 @@ void addRatios(const Rule& rule, const ResultRows& rows, SampleTable& table, Cla
                 table.add(table.keyOf(a) + table.keyOf(b), table.turnOf(a), x, y);
         }
     if (table.empty() && samples.missing.empty())
-        samples.missing = fmt::format("no run of {} has its like of {} with a {} above 0", textOf(rule.of),
+        samples.missing = fmt::format("no run of {} matches a run of {} with a {} above 0", textOf(rule.of),
                                       textOf(rule.with), rule.column);
 }
 
-/// A point of a curve of the other side: the column to match, and the rule's column.
+/// A point of the other side's curve: load, the column to match, and the rule's column.
 struct MatchPoint {
     double load, match, value;
 };

@@ -1,5 +1,5 @@
-// The values of a rule's quantity in the rows of a summary, before they are judged: one for each cell of the experiment
-// and each turn, that is each repetition or seed.
+// The values of a rule's quantity in the rows of a summary: one for each cell (configuration) and each turn, which is a
+// repetition or a seed.
 //
 // Threads: pure.
 #pragma once
@@ -19,20 +19,20 @@ struct ClaimSample {
     std::size_t cell = 0;   ///< index in `cells`
     std::int64_t turn = 1;  ///< repetition or seed
     double value = 0;       ///< NaN: a ratio whose denominator is not above 0
-    /// Of a ratio, growth or share; else the value and 1.
+    /// Of a ratio, growth or share; otherwise the value and 1.
     double numerator = 0, denominator = 1;
 };
 
 struct ClaimSamples {
     std::vector<Selection> cells;  ///< the columns that vary over the cells, with each cell's values
     std::vector<ClaimSample> list;
-    std::vector<std::size_t> rows;  ///< that were used, sorted
-    std::size_t undefined = 0;      ///< pairs without a ratio, since both columns are 0
-    std::size_t unmatched = 0;      ///< rows whose matched column the other side does not reach
+    std::vector<std::size_t> rows;  ///< the rows that were used, sorted
+    std::size_t undefined = 0;      ///< number of pairs without a ratio because both values are 0
+    std::size_t unmatched = 0;      ///< number of rows whose matched column the other side does not reach
     std::string missing;            ///< why there are no values
 };
 
-/// For every quantity but `exponent`, `finding` and `none`.
+/// For every quantity except `exponent`, `finding` and `none`.
 [[nodiscard]] ClaimSamples samplesOf(const Rule& rule, const ResultRows& rows);
 
 /// The points that an exponent is fitted to.

@@ -46,7 +46,7 @@ MeanAndError meanAndError(const std::vector<double>& values) {
     return result;
 }
 
-/// Values are compared as logarithms or as they are. What an interval says beyond a quantity's own range is cut off.
+/// Values are compared directly or as logarithms. Intervals are clipped to the range of the quantity.
 struct Scale {
     bool logarithmic = false;
     double least = -std::numeric_limits<double>::infinity(), most = -least;
@@ -72,7 +72,7 @@ const char* turnName(const Rule& rule) {
     return rule.over == Chance::seeds ? "seed" : "repetition";
 }
 
-/// The level of each cell's interval so that all together hold with `intervalConfidence` (Bonferroni).
+/// The level of each cell's interval such that all intervals together hold with `intervalConfidence` (Bonferroni).
 double familyLevel(std::size_t cellCount) {
     return 1 - (1 - intervalConfidence) / static_cast<double>(cellCount);
 }
@@ -97,7 +97,7 @@ ClaimCell judgeCell(const Rule& rule, const std::vector<double>& values, const S
     return cell;
 }
 
-/// A ratio of which a denominator is not above 0 in every turn: by the means, not by the single ratios.
+/// Evaluates the ratio of the means instead of single ratios, if a denominator is not above 0 in some turn.
 ClaimCell judgeRatioNearZero(const Rule& rule, const std::vector<ClaimSample>& samples, std::size_t cellCount) {
     ClaimCell cell;
     cell.turns = samples.size();
@@ -136,14 +136,14 @@ std::size_t countOf(const std::vector<ClaimCell>& cells, ClaimVerdict verdict) {
     return static_cast<std::size_t>(std::ranges::count(cells, verdict, &ClaimCell::verdict));
 }
 
-/// The cells that are not refuted, taken together, lie outside the range too: by their mean, geometric where all values
-/// are above 0.
+/// True if the mean of the cells that are not refuted is outside the range too. It is geometric if all values are above
+/// 0.
 bool othersAreFalse(const Rule& rule, const std::vector<ClaimCell>& cells) {
     double sum = 0, logarithms = 0, count = 0;
     for (const ClaimCell& cell : cells) {
         if (cell.verdict == ClaimVerdict::refuted) continue;
         sum += cell.measured;
-        logarithms += std::log(cell.measured);  // of 0 or less: no finite number
+        logarithms += std::log(cell.measured);  // not finite for values of 0 or less
         ++count;
     }
     return !rule.isTrueAt(std::isfinite(logarithms) ? std::exp(logarithms / count) : sum / count);
@@ -162,7 +162,7 @@ ClaimVerdict verdictOfAll(const Rule& rule, const std::vector<ClaimCell>& cells,
     return ClaimVerdict::unresolved;
 }
 
-/// Why cells are open: too few turns, or an interval that holds both.
+/// Why cells are undecided: too few turns, or intervals that contain both true and false values.
 std::string openCells(const Rule& rule, const std::vector<ClaimCell>& cells) {
     const auto fewest = std::ranges::min_element(cells, {}, &ClaimCell::turns);
     if (rule.quantity != Quantity::finding && fewest->turns < minimumTurns(rule))
@@ -179,7 +179,7 @@ void decide(const Rule& rule, ClaimResult& result) {
         result.condition = conditionOf(result.cells, rule.along);
 }
 
-/// Some cells are open.
+/// Some cells are undecided.
 bool isPartly(const ClaimResult& result) {
     return result.verdict == ClaimVerdict::unresolved ||
            (result.verdict == ClaimVerdict::refuted &&
@@ -235,8 +235,8 @@ void judgeCurves(const Rule& rule, const CostCurves& curves, ClaimResult& result
     decide(rule, result);
 }
 
-/// One of `cellCount` cells. A finding has its own 95 % interval; that for all cells together is wider by Student's
-/// factor.
+/// One of `cellCount` cells. A finding has its own 95 % interval. The interval that holds for all cells together is
+/// wider, by the ratio of Student's quantiles.
 ClaimCell judgeOneFinding(const Rule& rule, const StoredFinding& finding, std::size_t cellCount) {
     ClaimCell cell{{}, finding.value, finding.low, finding.high};
     if (cellCount > 1) cell.cell = {{"finding", finding.quantity}};

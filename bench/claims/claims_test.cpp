@@ -94,7 +94,7 @@ TEST(Claims, AllThatThePapersClaimStandInTheLedger) {
     for (int number = 1; number <= 34; ++number) EXPECT_TRUE(numbers.contains(number)) << "R" << number;
 }
 
-/// The entries that a text names: `R5a`, `R12`.
+/// The entries that a text mentions: `R5a`, `R12`.
 std::set<std::string> entriesIn(const std::string& text) {
     std::set<std::string> found;
     const std::regex entry("\\bR[0-9]+[a-z]*\\b");
@@ -132,7 +132,7 @@ TEST(Claims, SuitesOfControlsAreThePapers) {
 }
 
 TEST(Claims, ReadTheRunsOfTheirSuiteAndNoOthers) {
-    // Both octrees of the suite's quick form, by their real names; the recursive one takes half the time.
+    // Both octrees of the suite's quick run, with their real names; the recursive one takes half the time.
     const Suite suite = loadSuite("carr2006-depth", true);
     std::string text = "run_id,status,method,repetition,p.particles,p.mode,p.depth,build_ms_median\n";
     for (const bool isSuites : {true, false})

@@ -11,7 +11,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// An empty cell is a number that was not measured.
+/// An empty field is a number that was not measured.
 double numberOrNan(const files::CsvTable& table, std::size_t row, std::string_view column) {
     return table.cell(row, column).empty() ? std::numeric_limits<double>::quiet_NaN() : table.number(row, column);
 }
@@ -47,7 +47,7 @@ std::vector<StoredFinding> readFindings(const std::filesystem::path& folder) {
     std::error_code missing;
     if (!std::filesystem::exists(std::filesystem::symlink_status(file, missing))) return findings;
     const files::CsvTable table = files::CsvTable::parseFile(file);
-    const bool hasNotes = table.hasColumn("note");  // older results do not
+    const bool hasNotes = table.hasColumn("note");  // older results have none
     for (std::size_t row = 0; row < table.rows(); ++row)
         findings.push_back(
             {{table.cell(row, "quantity"), numberOrNan(table, row, "value"), numberOrNan(table, row, "low"),

@@ -24,7 +24,7 @@ struct StoredFinding : Finding {
                                                        std::uint64_t seed = 1);
 
 [[nodiscard]] std::string findingsCsv(const std::vector<StoredFinding>& findings);
-/// Findings of a results folder; none if it has no experiments.csv. Throws InputError if it cannot be read.
+/// Findings of a results folder; none if it contains no experiments.csv. Throws InputError if it cannot be read.
 [[nodiscard]] std::vector<StoredFinding> readFindings(const std::filesystem::path& folder);
 
 }  // namespace dustbench::bench

@@ -1,4 +1,4 @@
-// The context that the harness lends to an experiment: its seed and form, worlds as in runs, and an OpenGL device
+// The context of an experiment: its seed, whether it is a quick run, worlds as in runs, and an OpenGL device that is
 // created on first use.
 //
 // Owns: the device. Worlds are owned by the caller.

@@ -15,7 +15,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// The sum of the columns of a run; empty if one of them is.
+/// The sum of the columns of a run; empty if one of them is empty.
 std::optional<double> sumOf(const ResultRows& rows, std::size_t row, const std::string& columns) {
     double sum = 0;
     std::istringstream names(columns);

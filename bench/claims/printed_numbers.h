@@ -1,8 +1,8 @@
 // Compares the numbers printed in a paper with ours: `data/papers/<id>/numbers.csv`.
 //
-// Its columns: `what` in words; `suite`, whose runs count (empty: all), and `of`, the selection among them; `columns`
-// of summary.csv whose sum is our number, separated by blanks; `published`, as printed; `formula`, the value of the
-// paper's formula, or empty.
+// Its columns: `what`, a description; `suite`, whose runs are used (empty: all), and `of`, a selection of them;
+// `columns` of summary.csv, separated by spaces, whose sum is our number; `published`, the printed number; `formula`,
+// the value of the paper's formula, or empty.
 #pragma once
 
 #include <string>

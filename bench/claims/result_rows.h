@@ -1,6 +1,6 @@
-// The rows of done runs in a summary.csv, as used by claims.
+// The rows of completed runs in a summary.csv, as used by claims.
 //
-// A cell of the experiment is all rows that are equal in everything except the repetition.
+// Rows that differ only in the repetition form a cell (configuration) of the experiment.
 #pragma once
 
 #include <optional>
@@ -16,30 +16,30 @@ namespace dustbench::bench {
 
 class ResultRows {
  public:
-    /// Uses the rows of `table` whose run is done and valid and, if `runIds` is given, listed there.
+    /// Uses the rows of `table` whose run is completed and valid and, if `runIds` is given, listed there.
     ResultRows(const files::CsvTable& table, const std::set<std::string>* runIds);
 
-    /// Why rows that match the selection are not used, `clipped: 3 runs`; empty if none is invalid.
+    /// Why rows that match the selection are not used: `clipped (3 runs)`; empty if none is invalid.
     [[nodiscard]] std::string invalidAmong(const Selection& selection) const;
 
-    /// Rows that match the selection; numbers are compared as numbers, a choice like `speed=5|40` matches either. None
-    /// if the table lacks a column.
+    /// Rows that match the selection. Numbers are compared as numbers; a choice such as `speed=5|40` matches either.
+    /// None if a column is missing in the table.
     [[nodiscard]] std::vector<std::size_t> select(const Selection& selection) const;
 
     [[nodiscard]] std::optional<double> number(std::size_t row, std::string_view column) const;
     [[nodiscard]] int repetition(std::size_t row) const;
     [[nodiscard]] const std::string& runId(std::size_t row) const;
 
-    /// True if both rows have the same world, repetition and settings, ignoring the columns in `named` and those that
-    /// one of them lacks.
+    /// True if both rows have the same world, repetition and settings, except for the columns in `named` and those that
+    /// are empty in one of them.
     [[nodiscard]] bool correspond(std::size_t a, std::size_t b, const std::set<std::string>& named) const;
     /// Identifies the cell of a row, without the columns `except`.
     [[nodiscard]] std::string cellKey(std::size_t row, const std::set<std::string>& except) const;
-    /// The value of a column in a key of `cellKey`; of a pair of rows that of the first.
+    /// The value of a column in a key of `cellKey`; for a pair of rows, that of the first.
     [[nodiscard]] std::string valueIn(const std::string& key, std::string_view column) const;
     /// The columns and values that distinguish a cell from the others with these keys: `p.particles` 500, `p.speed` 40.
-    /// A key may be that of a pair of rows, one after the other: columns of the second in which it differs from the
-    /// first begin with `with `.
+    /// A key may consist of the keys of a pair of rows. Columns in which the second row differs from the first then
+    /// appear with the prefix `with `.
     [[nodiscard]] Selection cellValues(const std::string& key, const std::vector<std::string>& keys) const;
 
  private:

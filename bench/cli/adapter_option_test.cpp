@@ -85,7 +85,7 @@ TEST_F(Dustbench, EnvListsTheAdaptersAndMarksTheOneThatIsTaken) {
     const std::string text = call("env").out;
     for (const gpu::Adapter& adapter : gpu::listAdapters())
         EXPECT_THAT(text, HasSubstr(fmt::format("{}: {}, ", adapter.index, adapter.name)));
-    EXPECT_EQ(count(text, "; taken: "), 1u) << text;
+    EXPECT_EQ(count(text, "; chosen: "), 1u) << text;
     for (const gpu::Adapter& adapter : usableAdapters()) {
         const std::string json = call(fmt::format("env --json --adapter {}", adapter.index)).out;
         EXPECT_EQ(count(json, "\"problem\": "), gpu::listAdapters().size()) << json;

@@ -67,7 +67,7 @@ InputError unexpected(const CLI::App& app, const CLI::App* command, const std::v
                       const CLI::ParseError& error) {
     if (!command) {
         const std::vector<std::string> words = withoutOptions(argv, optionNames(app));
-        if (words.empty()) return InputError("no command is given; `dustbench help` lists them");
+        if (words.empty()) return InputError("no command given; `dustbench help` lists the commands");
         if (words.front().starts_with('-')) return unknownName("option", words.front(), optionNames(app));
         return unknownName("command", words.front(), commandNames(app));
     }
@@ -176,7 +176,7 @@ void Arguments::givenOptions(std::vector<std::string>& names) {
 
 int dispatch(const std::vector<Command>& commands, const CommonOptions& common, std::string_view version,
              const std::vector<std::string>& argv) {
-    CLI::App app("Real-time volumetric effects behind one vehicle, compared and measured.", "dustbench");
+    CLI::App app("Compares and benchmarks methods for real-time volumetric effects.", "dustbench");
     app.require_subcommand(1);
     app.get_formatter()->column_width(34);
     app.set_version_flag("--version", std::string(version));
@@ -209,12 +209,12 @@ int dispatch(const std::vector<Command>& commands, const CommonOptions& common, 
         return 0;
     } catch (const CLI::ParseError& error) {
         const auto* entry = chosen();
-        // Caught by type: a subcommand's ExtrasError has the subcommand's name instead of its own.
+        // Caught by type, because a subcommand's ExtrasError has the name of the subcommand.
         if (dynamic_cast<const CLI::ExtrasError*>(&error) || !entry)
             throw unexpected(app, entry ? entry->first : nullptr, argv, error);
         const std::string_view text = error.what();
         if (const std::size_t end = text.find(": At Most 1 required"); end != std::string_view::npos)
-            throw InputError(std::string(text.substr(0, end)) + ": is given more than once");
+            throw InputError(std::string(text.substr(0, end)) + ": given more than once");
         throw InputError(error.what());
     }
     common.apply();

@@ -1,4 +1,4 @@
-// Declares the arguments of a subcommand. The command line library is used in one source file only.
+// Declares the arguments of a subcommand. Only arguments.cpp uses the command line library.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class Option;
 namespace dustbench::cli {
 
 /// Options are named `--frames` (or `-P,--parameter`), positional arguments `id`. Values are checked during parsing: an
-/// invalid one throws InputError with its name, the value and what is allowed.
+/// invalid one throws InputError with the option's name, the value and the allowed values.
 class Arguments {
  public:
     explicit Arguments(CLI::App& app) : app_(app) {}
@@ -33,7 +33,7 @@ class Arguments {
     /// May be given several times.
     void texts(const std::string& name, const std::string& placeholder, const std::string& help,
                std::vector<std::string>& values);
-    /// May be given several times; `take` is called with each value as it is parsed, so that the order among several
+    /// May be given several times. `take` is called with each value during parsing, so that the order of different
     /// options is known. Mandatory if positional.
     void inOrder(const std::string& name, const std::string& placeholder, const std::string& help,
                  std::function<void(const std::string&)> take);
@@ -67,7 +67,7 @@ struct CommonOptions {
 [[nodiscard]] int dispatch(const std::vector<Command>& commands, const CommonOptions& common, std::string_view version,
                            const std::vector<std::string>& argv);
 
-/// What the commands declare, without the common options, and these, with `--help`.
+/// The declarations of the commands without the common options, and the common options with `--help`.
 [[nodiscard]] std::vector<DeclaredCommand> declaredCommands(const std::vector<Command>& commands);
 [[nodiscard]] std::vector<DeclaredOption> declaredOptions(const CommonOptions& common);
 

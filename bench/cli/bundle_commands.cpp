@@ -1,4 +1,5 @@
-// `dustbench bundle` and `dustbench verify`: results with all that they depend on in one file, and whether they hold.
+// `dustbench bundle` packs results with everything they depend on into one file. `dustbench verify` checks such a file
+// and repeats its simulations.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,7 +35,7 @@ int writeBundle(const BundleOptions& options) {
     const fs::path archive =
         options.out.empty() ? fs::path(folder.filename().string() + ".tar") : fs::path(options.out);
     if (fs::exists(fs::symlink_status(archive)))
-        throw InputError(fmt::format("bundle '{}': is there already, expected a new name", archive.string()));
+        throw InputError(fmt::format("bundle '{}' already exists; choose a new name", archive.string()));
     const bench::PackedBundle packed = bench::packBundle(folder, archive);
     for (const std::string& missing : packed.missing) std::cerr << "note: " << files::printable(missing) << "\n";
     std::cerr << fmt::format("{} files, {:.1f} MB\n", packed.files, static_cast<double>(packed.bytes) / 1e6);
@@ -48,7 +49,7 @@ struct VerifyOptions {
     double timeoutSeconds = 600;
 };
 
-/// As many as told, evenly spread; all if the number is negative.
+/// At most `most` of them, evenly spread; all if it is negative.
 std::vector<bench::ExactRun> chosen(std::vector<bench::ExactRun> all, std::int64_t most) {
     const std::size_t count = most < 0 ? all.size() : std::min(all.size(), static_cast<std::size_t>(most));
     std::vector<bench::ExactRun> some;
@@ -57,11 +58,11 @@ std::vector<bench::ExactRun> chosen(std::vector<bench::ExactRun> all, std::int64
     return some;
 }
 
-/// Why it cannot be run here, or nothing: files elsewhere are not replaced by those of the bundle.
+/// Why the run cannot be repeated here; empty if it can. Files with absolute paths are not taken from the bundle.
 std::string whyNotHere(const bench::ExactRun& exact, const bench::StoredRun& run) {
     for (const bench::InputHash& input : run.inputs)
         if (fs::path(input.file).is_absolute() && bench::sha256OfFile(input.file) != input.sha256)
-            return fmt::format("'{}' is not here as it was", input.file);
+            return fmt::format("'{}' is missing or has changed", input.file);
     try {
         (void)bench::canonicalParameters(findMethod(exact.spec.method), exact.spec.parameters);
     } catch (const InputError& error) {
@@ -75,14 +76,14 @@ std::string nameOf(const bench::ExactRun& exact) {
     return exact.runIds.front() + (others == 0 ? "" : fmt::format(" and {} more", others));
 }
 
-/// How what was run again compares, one line each; false unless all hashes are the same.
+/// Prints a line for each repeated simulation; false unless all hashes are the same.
 bool printComparison(const std::vector<bench::ExactRun>& repeated, const bench::StoredRuns& again) {
     bool isSame = true;
     for (const bench::ExactRun& exact : repeated) {
         const bench::StoredRun& run = again.at(bench::runId(exact.spec));
         const std::string difference = run.status == bench::RunStatus::done
                                            ? bench::hashDifference(run, exact)
-                                           : "did not run again: " + files::printable(run.reason);
+                                           : "the repetition failed: " + files::printable(run.reason);
         isSame = isSame && difference.empty();
         std::cout << fmt::format("{}: {}\n", nameOf(exact), difference.empty() ? "the same hashes" : difference);
     }
@@ -125,8 +126,8 @@ int verifyBundle(const VerifyOptions& options) {
     const bench::TemporaryFolder temporary;
     const bench::OpenedBundle bundle = bench::openBundle(options.bundle, temporary.path());
     const std::vector<bench::ExactRun> exact = bench::exactRuns(bundle.runs);
-    std::cout << fmt::format("{} files are as they were packed: {} runs of {} simulations\n", bundle.files,
-                             bundle.runs.size(), exact.size());
+    std::cout << fmt::format("{} files are unchanged: {} runs of {} simulations\n", bundle.files, bundle.runs.size(),
+                             exact.size());
     return repeatRuns(bundle, chosen(exact, options.runs), options.timeoutSeconds, temporary.path());
 }
 
@@ -137,25 +138,25 @@ Command bundleCommand() {
     return {"bundle", "Pack results with their suite, inputs and checksums into one file",
             "The file is a tar archive; `sha256sum --check SHA256SUMS` in it needs no dustbench.",
             [options](Arguments& arguments) {
-                arguments.required("dir", "DIR", "a folder that `suite`, `run`, `compare` or `reproduce` wrote",
+                arguments.required("dir", "DIR", "results folder written by `suite`, `run`, `compare` or `reproduce`",
                                    options->results);
-                arguments.text("--out", "FILE", "the bundle; default: the folder's name with .tar", options->out);
+                arguments.text("--out", "FILE", "bundle to write; default: the folder's name with .tar", options->out);
             },
             [options] { return writeBundle(*options); }};
 }
 
 Command verifyCommand() {
     auto options = std::make_shared<VerifyOptions>();
-    return {
-        "verify", "Check a bundle, and run again what is exact",
-        "Exact is the state after the last frame: its hashes are the same on every machine. Times are not compared.",
-        [options](Arguments& arguments) {
-            arguments.required("bundle", "FILE", "a file that `bundle` wrote", options->bundle);
-            arguments.integer("--runs", "simulations to run again, evenly spread; -1: all", options->runs, -1,
-                              std::numeric_limits<std::int64_t>::max());
-            arguments.number("--timeout", "seconds after which a run is ended", options->timeoutSeconds, 1, 1e6);
-        },
-        [options] { return verifyBundle(*options); }};
+    return {"verify", "Check a bundle and repeat its simulations",
+            "Compares hashes of the state after the last frame, which are the same on every machine. Times are not "
+            "compared.",
+            [options](Arguments& arguments) {
+                arguments.required("bundle", "FILE", "file written by `bundle`", options->bundle);
+                arguments.integer("--runs", "number of simulations to repeat, evenly spread; -1: all", options->runs,
+                                  -1, std::numeric_limits<std::int64_t>::max());
+                arguments.number("--timeout", "time limit of one run in seconds", options->timeoutSeconds, 1, 1e6);
+            },
+            [options] { return verifyBundle(*options); }};
 }
 
 }  // namespace dustbench::cli

@@ -18,7 +18,7 @@ class BundleCommands : public Dustbench {
     }
     [[nodiscard]] std::string mine() const { return fmt::format("--data '{}'", (folder_ / "mine").string()); }
     [[nodiscard]] std::string bundle() const { return (folder_ / "b.tar").string(); }
-    /// A suite of two repetitions with a scene of one's own.
+    /// A suite of two repetitions with a user's scene.
     void measure() const {
         std::ofstream(folder_ / "small.toml") << "title = \"Small\"\nmethods = [\"null_method\"]\nscenes = "
                                                  "[\"mine\"]\nframes = 3\nwarmup = 1\nrepetitions = 2\n"
@@ -33,7 +33,7 @@ class BundleCommands : public Dustbench {
     [[nodiscard]] Called verify(const std::string& more = "") const {
         return call(fmt::format("verify '{}' {}", bundle(), more));
     }
-    /// Unpacks the bundle, lets the commands of a shell change it, and packs it again with its sums as they are then.
+    /// Unpacks the bundle, lets shell commands change it, and packs it again with recomputed checksums.
     void forge(const std::string& commands) const {
         const Called called = callAs(
             "bash", fmt::format("-ec 'cd \"{}\" && rm -rf b && tar -xf b.tar && cd b && {} && rm SHA256SUMS && "
@@ -52,7 +52,7 @@ TEST_F(BundleCommands, ABundleAloneIsEnoughToRepeatItsRuns) {
     for (const char* name : {"mine", "small.toml", "out"}) fs::remove_all(folder_ / name);
     const Called verified = verify();
     EXPECT_EQ(verified.code, 0) << verified.err;
-    EXPECT_THAT(verified.out, HasSubstr("files are as they were packed: 2 runs of 1 simulations"));
+    EXPECT_THAT(verified.out, HasSubstr("files are unchanged: 2 runs of 1 simulations"));
     EXPECT_THAT(verified.out, HasSubstr("and 1 more: the same hashes"));
     EXPECT_THAT(verify("--runs 0").out, Not(HasSubstr("hashes")));
     const Called listed = callAs("tar", fmt::format("-tf '{}'", bundle()));
@@ -82,7 +82,7 @@ TEST_F(BundleCommands, TheSuitesOfAPaperAreInItsBundle) {
     const Called without = pack();
     EXPECT_EQ(without.code, 0);
     EXPECT_THAT(without.err, HasSubstr("small.toml"));
-    EXPECT_THAT(without.err, HasSubstr("is not here any more"));
+    EXPECT_THAT(without.err, HasSubstr("no longer exists"));
 }
 
 TEST_F(BundleCommands, EveryAlteredByteIsNoticed) {
@@ -127,14 +127,14 @@ TEST_F(BundleCommands, WhatDoesNotBelongTogetherIsRefused) {
         EXPECT_EQ(verified.code, 3);
         return verified.err;
     };
-    EXPECT_THAT(refusedAfter("echo >> inputs/scenes/mine.toml"), HasSubstr("is not what the runs have read"));
-    EXPECT_THAT(refusedAfter("rm inputs/scenes/mine.toml"), HasSubstr("is not what the runs have read"));
+    EXPECT_THAT(refusedAfter("echo >> inputs/scenes/mine.toml"), HasSubstr("that the runs read"));
+    EXPECT_THAT(refusedAfter("rm inputs/scenes/mine.toml"), HasSubstr("that the runs read"));
     EXPECT_THAT(refusedAfter("echo >> $(ls results/runs/*/frames.csv | head -n 1)"), HasSubstr("frames.csv has"));
     EXPECT_THAT(refusedAfter("sed -i \"s/\\\"state_hash\\\": \\\"./\\\"state_hash\\\": \\\"x/\" "
                              "$(ls results/runs/*/run.json | head -n 1)"),
                 HasSubstr("of the same simulation"));
-    EXPECT_THAT(refusedAfter("rm -r results"), HasSubstr("no folder of results"));
-    // The archive alone is changed, not its sums.
+    EXPECT_THAT(refusedAfter("rm -r results"), HasSubstr("not a results folder"));
+    // Changes only the archive, not its checksums.
     const auto refusedAs = [&](const std::string& tarOptions) {
         std::ofstream(bundle(), std::ios::binary) << whole;
         const Called changed = callAs("tar", fmt::format("-C '{}' -f '{}' {}", folder_.string(), bundle(), tarOptions));
@@ -143,8 +143,8 @@ TEST_F(BundleCommands, WhatDoesNotBelongTogetherIsRefused) {
     };
     fs::create_directories(folder_ / "b");
     std::ofstream(folder_ / "b/more.txt") << "more\n";
-    EXPECT_THAT(refusedAs("--format=ustar -r b/more.txt"), HasSubstr("'more.txt': is in the bundle, but not in"));
-    EXPECT_THAT(refusedAs("--delete b/bundle.json"), HasSubstr("'bundle.json': is missing in the bundle"));
+    EXPECT_THAT(refusedAs("--format=ustar -r b/more.txt"), HasSubstr("'more.txt': is in the bundle but not listed in"));
+    EXPECT_THAT(refusedAs("--delete b/bundle.json"), HasSubstr("'bundle.json': is missing from the bundle"));
 }
 
 TEST_F(BundleCommands, WhatIsNotAsItWasMeasuredIsNotPacked) {
@@ -152,10 +152,10 @@ TEST_F(BundleCommands, WhatIsNotAsItWasMeasuredIsNotPacked) {
     std::ofstream(folder_ / "mine/scenes/mine.toml", std::ios::app) << "\n";
     const Called changed = pack();
     EXPECT_EQ(changed.code, 3);
-    EXPECT_THAT(changed.err, HasSubstr("mine.toml': has changed since the runs have read it"));
+    EXPECT_THAT(changed.err, HasSubstr("mine.toml': has changed since the runs read it"));
     EXPECT_FALSE(fs::exists(bundle()));
     fs::remove(folder_ / "mine/scenes/mine.toml");
-    EXPECT_THAT(pack().err, HasSubstr("is not here any more"));
+    EXPECT_THAT(pack().err, HasSubstr("no longer exists"));
     fs::copy(files::dataFolder() / "scenes/plain.toml", folder_ / "mine/scenes/mine.toml");
     std::ofstream(runs(out()).front() / "frames.csv", std::ios::app) << "1\n";
     EXPECT_THAT(pack().err, HasSubstr("frames.csv has"));
@@ -163,12 +163,12 @@ TEST_F(BundleCommands, WhatIsNotAsItWasMeasuredIsNotPacked) {
 
 TEST_F(BundleCommands, WrongUseIsOneLine) {
     std::ofstream(bundle()) << "no archive\n";
-    EXPECT_THAT(verify().err, HasSubstr("no bundle of dustbench"));
+    EXPECT_THAT(verify().err, HasSubstr("not a dustbench bundle"));
     EXPECT_EQ(verify().code, 3);
     EXPECT_THAT(call("verify /nowhere.tar").err, HasSubstr("No such file"));
-    EXPECT_THAT(pack().err, HasSubstr("is there already"));
+    EXPECT_THAT(pack().err, HasSubstr("already exists"));
     fs::remove(bundle());
-    EXPECT_THAT(call(fmt::format("bundle '{}'", folder_.string())).err, HasSubstr("is no folder of results"));
+    EXPECT_THAT(call(fmt::format("bundle '{}'", folder_.string())).err, HasSubstr("is not a results folder"));
     EXPECT_THAT(call(fmt::format("verify '{}'", folder_.string())).err, HasSubstr("dustbench: '"));
 }
 

@@ -1,4 +1,4 @@
-// `--at`: changes while a run goes on are part of what the run is.
+// `--at`: changes during a run are part of its identity.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -64,7 +64,7 @@ TEST_F(Changes, AreRefusedInOneLineWhereTheyCannotBe) {
         const fs::path out = folder_ / "refused";
         const Called called = call("run -P preroll=0 --size 32x24 --method " + arguments + " --out " + out.string());
         EXPECT_EQ(called.code, 3) << arguments;
-        // A progress line may stand before it, where only the run's process finds the mistake.
+        // A progress line may precede it if only the run's process detects the mistake.
         const std::size_t at = called.err.find("dustbench: ");
         ASSERT_NE(at, std::string::npos) << called.err;
         EXPECT_EQ(std::ranges::count(called.err.substr(at), '\n'), 1) << called.err;

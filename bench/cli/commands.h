@@ -1,4 +1,4 @@
-// The subcommands, one source file each.
+// The subcommands. Each is in its own source file.
 #pragma once
 
 #include <string>
@@ -24,15 +24,15 @@ namespace dustbench::cli {
 [[nodiscard]] Command bundleCommand();
 [[nodiscard]] Command verifyCommand();
 [[nodiscard]] Command selfcheckCommand();
-/// `completion SHELL` and `manual`, which speak of all `commands` and of themselves; to be added to them last.
+/// `completion SHELL` and `manual`, which describe all `commands` and themselves. Add them last.
 [[nodiscard]] std::vector<Command> manualCommands(const std::vector<Command>& commands, const CommonOptions& common);
-/// The tools of the folders of methods/: `shape`.
+/// The tools that method folders provide, such as `shape`.
 [[nodiscard]] std::vector<Command> toolCommands();
 
 /// Runs one measurement in its own process: `measure-run SPEC FOLDER -- the user's command`. Internal.
 inline constexpr const char* measureRunName = "measure-run";
 [[nodiscard]] int measureRunCommand(const std::vector<std::string>& argv);
-/// Starts a run only to estimate its duration: `forecast-run SPEC FOLDER --`. Internal.
+/// Starts a run to estimate its duration: `forecast-run SPEC FOLDER --`. Internal.
 inline constexpr const char* forecastRunName = "forecast-run";
 [[nodiscard]] int forecastRunCommand(const std::vector<std::string>& argv);
 

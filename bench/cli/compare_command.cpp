@@ -1,4 +1,4 @@
-// `dustbench compare`: methods side by side in one world, in numbers and on a contact sheet; or two results folders.
+// `dustbench compare`: compares methods in one world, with tables and a contact sheet; or two results folders.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,9 +40,9 @@ void refuseOthers(const CompareOptions& options, bool folders) {
         ofFolders{"--columns", "--fail-on-regression", "--across-machines", "--markdown"};
     for (const std::string& name : options.given)
         if (!both.contains(name) && ofFolders.contains(name) != folders)
-            throw InputError(fmt::format("{}: got it for {}, allowed: for {}", name,
-                                         folders ? "result folders" : "methods",
-                                         folders ? "methods" : "two result folders"));
+            throw InputError(fmt::format("{}: applies only to {}, not to {}", name,
+                                         folders ? "methods" : "two results folders",
+                                         folders ? "results folders" : "methods"));
 }
 
 bench::ParameterTexts singleValues(const std::vector<std::string>& texts) {
@@ -50,7 +50,7 @@ bench::ParameterTexts singleValues(const std::vector<std::string>& texts) {
     for (const auto& [name, list] : parseParameters(texts)) {
         if (list.size() != 1)
             throw InputError(
-                fmt::format("-P {}: got {} values, allowed: 1 (methods may differ by "
+                fmt::format("-P {}: got {} values, allowed: 1 (to set it for one method: "
                             "METHOD:name=value)",
                             name, list.size()));
         values[name] = list.front();
@@ -58,7 +58,7 @@ bench::ParameterTexts singleValues(const std::vector<std::string>& texts) {
     return values;
 }
 
-/// The sheet of all done runs; the exact pictures come from those that are judged.
+/// Writes the contact sheet of all completed runs. The reference images come from the runs that have metrics.
 void writeSheet(const bench::Suite& suite, const bench::ResultsFolder& results) {
     std::vector<bench::SheetRun> runs;
     for (const bench::PlannedRun& cell : suite.cells) {
@@ -68,7 +68,7 @@ void writeSheet(const bench::Suite& suite, const bench::ResultsFolder& results) 
                             std::filesystem::exists(results.runFolder(id) / "metrics.csv")});
     }
     if (std::ranges::none_of(runs, &bench::SheetRun::judged)) {
-        std::cout << "no contact sheet: no run could be compared with exact pictures\n";
+        std::cout << "no contact sheet: no run could be compared with a reference image\n";
         return;
     }
     const bench::ContactSheet sheet = bench::sideBySideSheet(results, runs, suite.title);
@@ -80,7 +80,7 @@ void writeSheet(const bench::Suite& suite, const bench::ResultsFolder& results) 
     }
 }
 
-/// A method's name means the method; what follows its ':' may be the path of a file.
+/// The name of a method is never a folder. A path after its ':' is the value of a parameter.
 bool isFolder(const std::string& text) {
     const std::string name = text.substr(0, text.find(':'));
     if (std::ranges::find(methods(), name, &MethodInfo::id) != methods().end()) return false;
@@ -100,9 +100,10 @@ int compareFolderArguments(const CompareOptions& options) {
     for (const std::string& each : options.methods)
         if (!isFolder(each))
             throw InputError(fmt::format(
-                "compare: got '{}' beside a result folder, allowed: methods, or two folders that exist", each));
+                "compare: got '{}' together with a results folder, allowed: only methods, or two existing folders",
+                each));
     if (options.methods.size() != 2)
-        throw InputError(fmt::format("compare: got {} result folders, allowed: 2", options.methods.size()));
+        throw InputError(fmt::format("compare: got {} results folders, allowed: 2", options.methods.size()));
     refuseOthers(options, true);
     RegressionOptions folders{options.methods[0],     options.methods[1], options.columns, options.out, {},
                               options.acrossMachines, options.markdown};
@@ -138,35 +139,41 @@ int compare(const CompareOptions& options) {
 
 Command compareCommand() {
     auto options = std::make_shared<CompareOptions>();
-    return {"compare", "Compare methods, or two folders of results: times with intervals",
-            "Methods: frame times, metrics and a contact sheet. A method may have parameters of its own:\n"
-            "billboard:soft=true,sort=none. Existing results are kept.\n"
+    return {"compare", "Compare methods or two results folders, with confidence intervals",
+            "Methods: prints frame times and metrics and draws a contact sheet. Parameters of one method follow its\n"
+            "name: billboard:soft=true,sort=none. Existing results are kept.\n"
             "reports/METRICS.md defines the metrics.\n"
-            "Two folders: for every run in both, the times of the second over those of the first.\n"
+            "Two folders: for every run in both, the ratio of its times, second folder over first.\n"
             "Exit code 5: a regression; 6: not comparable.",
             [options](Arguments& arguments) {
                 arguments.requiredTexts("methods", "METHOD|DIR",
-                                        "two or more of `dustbench list methods`; or two folders of results",
+                                        "two or more of `dustbench list methods`; or two results folders",
                                         options->methods);
                 options->world.declareWorld(arguments);
                 arguments.integer("--frames", "frames to record", options->frames, 1, 10'000'000);
                 arguments.text("--moments", "A:B:STEP",
-                               "frames to judge and show, 5 or more, without B; default: five from first to last",
+                               "frames to compare with the reference and to show, 5 or more, excluding B; default: "
+                               "five from first to last",
                                options->moments);
-                arguments.integer("--repetitions", "of every run, each in a new process; fewer than 6 give no verdict",
+                arguments.integer("--repetitions",
+                                  "runs of every configuration, each in a new process; fewer than 6 give no verdict",
                                   options->repetitions, 1, files::limits::repetitions);
                 arguments.text("--out", "DIR",
-                               "folder for the results, default: out/compare; for folders: where comparison.csv goes",
+                               "folder for the results, default: out/compare; for two folders: folder for "
+                               "comparison.csv",
                                options->out);
                 arguments.text("--fail-on-regression", "PERCENT",
-                               "for folders: exit code 5 if the second is slower by more than this, also when it is "
-                               "measured again, or fails where the first does not",
+                               "for two folders: exit code 5 if the second is slower by more than this, confirmed by "
+                               "measuring again, or if a run fails only in the second",
                                options->failPercent);
-                arguments.text("--markdown", "FILE", "for folders: the result for a merge request", options->markdown);
+                arguments.text("--markdown", "FILE",
+                               "for two folders: also write the result as Markdown, for a merge request",
+                               options->markdown);
                 arguments.text("--columns", "NAME,NAME…",
-                               "for folders: times or rates of summary.csv; default: frame_ms_median",
+                               "for two folders: times or rates of summary.csv to compare; default: frame_ms_median",
                                options->columns);
-                arguments.flag("--across-machines", "for folders: compare runs of different machines or builds",
+                arguments.flag("--across-machines",
+                               "for two folders: also compare runs of different machines or builds",
                                options->acrossMachines);
                 arguments.givenOptions(options->given);
             },

@@ -75,7 +75,7 @@ TEST_F(CompareCommand, ShowsAMethodWithASimulationOfItsOwnBesideTheJudged) {
         "-P particles=50");
     ASSERT_EQ(called.code, 0) << called.err;
     const pictures::Image sheet = pictures::readImage(fs::path(out()) / "contact_sheet.png");
-    // Exact, both methods, and the difference of one.
+    // The reference image, both methods, and the difference of one.
     EXPECT_GT(sheet.width, 4 * 400);
     EXPECT_LT(sheet.width, 5 * 400);
     const auto summary = files::CsvTable::parseFile(fs::path(out()) / "summary.csv");
@@ -90,7 +90,7 @@ TEST_F(CompareCommand, TurnsTheSheetOfManyMethods) {
         "--warmup 1 --repetitions 1 -P preroll=0.1 -P particles=50");
     ASSERT_EQ(called.code, 0) << called.err;
     const pictures::Image sheet = pictures::readImage(fs::path(out()) / "contact_sheet.png");
-    // Five moments with their differences, of the exact picture and five methods.
+    // Five moments of the reference image and of five methods, with their differences.
     EXPECT_GT(sheet.width, 10 * 400);
     EXPECT_LT(sheet.width, 11 * 400 + 160);
     EXPECT_GT(sheet.height, 6 * 300);
@@ -112,7 +112,7 @@ TEST_F(CompareCommand, RefusesInOneLine) {
     EXPECT_THAT(refused(""), HasSubstr("methods"));
     EXPECT_THAT(refused("billboard"), HasSubstr("2 or more"));
     EXPECT_THAT(refused("billboard billbord"), HasSubstr("did you mean"));
-    EXPECT_THAT(refused("billboard a/b"), HasSubstr("billboard' beside a result folder"));
+    EXPECT_THAT(refused("billboard a/b"), HasSubstr("billboard' together with a results folder"));
     EXPECT_THAT(refused("billboard billboard:soft=true --moments 0:4"), HasSubstr("got 4 moments"));
     EXPECT_THAT(refused("billboard billboard:soft=true --moments 0:200:2"), HasSubstr("beyond the run's end"));
     EXPECT_THAT(refused("billboard billboard:soft=true -P particles=1,2"), HasSubstr("got 2 values"));

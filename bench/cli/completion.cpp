@@ -8,7 +8,7 @@
 namespace dustbench::cli {
 namespace {
 
-/// A word of a shell, for any text: 'it'\''s'.
+/// Quotes any text for a shell: 'it'\''s'.
 std::string inQuotes(std::string_view text) {
     std::string result = "'";
     for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
@@ -40,7 +40,7 @@ const DeclaredOption* positionalOf(const DeclaredCommand& command) {
 
 // bash
 
-/// Fills COMPREPLY with what an option's value may be.
+/// Fills COMPREPLY with the possible values of an option.
 std::string bashValue(const DeclaredOption& option) {
     const std::string files = "compgen -f -- \"$word\"";
     if (const auto words = option.words(); !words.empty())
@@ -111,7 +111,7 @@ complete -o filenames -o bashdefault -F _dustbench dustbench
 
 // zsh
 
-/// Text within `[…]` of a specification of _arguments.
+/// Escapes text for `[…]` in a specification of _arguments.
 std::string zshText(const std::string& text) {
     std::string result;
     for (const char c : text) {

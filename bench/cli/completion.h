@@ -1,4 +1,4 @@
-// Scripts by which shells complete the command line, written from what the subcommands declare.
+// Generates the scripts with which shells complete the command line, from the declarations of the subcommands.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace dustbench::cli {
 [[nodiscard]] const std::vector<std::string>& completedShells();
 
 /// The script for one of completedShells(). `common`: options of every command, before or after its name. Names of
-/// methods, scenes and the like are asked of `dustbench list` while one types.
+/// methods, scenes and so on are queried with `dustbench list` during completion.
 [[nodiscard]] std::string completionScript(std::string_view shell, const std::vector<DeclaredCommand>& commands,
                                            const std::vector<DeclaredOption>& common);
 

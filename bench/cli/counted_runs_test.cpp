@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using CountedRuns = Dustbench;
 
 TEST_F(CountedRuns, RunsThatAreInvalidAreSaidWhereverTheirNumbersStand) {
-    // After a tenth of a second there are far fewer particles than were asked for.
+    // After a tenth of a second there are far fewer particles than requested.
     std::ofstream(folder_ / "early.toml") << fmt::format(
         "title = \"Early\"\nmethods = [\"{0}\"]\nsizes = [\"16x12\"]\nframes = 2\nwarmup = 0\nrepetitions = 2\n"
         "[parameters]\npreroll = 0.1\nparticles = [100, 200, 400, 800]\n[[fit]]\nagainst = \"particles\"\ncolumns = "
@@ -44,7 +44,7 @@ TEST_F(CountedRuns, ARunThatIsCopiedUnderAnotherNameCountsOnce) {
     const fs::path copy = run.string() + "-copy";
     fs::copy(run, copy, fs::copy_options::recursive);
     const std::string reason =
-        fmt::format("holds the run '{}', expected the one that its folder is named after", run.filename().string());
+        fmt::format("contains the run '{}', expected the run that the folder is named after", run.filename().string());
     const Called text = call(fmt::format("report {} --text", out()));
     EXPECT_EQ(text.code, 0);
     EXPECT_THAT(text.err, HasSubstr("left out: '" + copy.string()));
@@ -56,7 +56,7 @@ TEST_F(CountedRuns, ARunThatIsCopiedUnderAnotherNameCountsOnce) {
         EXPECT_EQ(called.code, 3) << command;
         EXPECT_THAT(called.err, HasSubstr(reason)) << command;
     }
-    // What writes into the folder sets the copy aside.
+    // A command that writes into the folder sets the copy aside.
     const Called again = shortRun("--frames 3 --out " + out());
     EXPECT_EQ(again.code, 0);
     EXPECT_THAT(again.err, HasSubstr("set aside as "));

@@ -1,4 +1,4 @@
-// Where the program finds its data: beside it, wherever it was moved, and in the folders and files that it is told.
+// The program finds its data next to itself, wherever it was moved, and in the folders and files that it is given.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class Data : public Dustbench {
         std::ofstream(folder_ / name) << text;
     }
     [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
-    /// The scene `name` in a folder of data, of another wind than any that is delivered.
+    /// The scene `name` in a data folder, with a wind that no delivered scene has.
     void writeScene(const std::string& name) const { write(name, "description = \"of a test\"\nwind = [3, 0, 1]\n"); }
     [[nodiscard]] bench::StoredRun onlyRun(const std::string& folder) const {
         const bench::StoredRuns stored = bench::readStoredRuns(folder);
@@ -128,7 +128,7 @@ TEST_F(Data, OfTheTreeAreNotNamedByTheProgramItself) {
     if (bench::buildFacts().buildType != "Release") GTEST_SKIP() << "debug symbols name the sources";
     const fs::path folder = fs::path(DUSTBENCH_PROGRAM).parent_path(), source = folder.parent_path().parent_path();
     for (const char* name : {"dustbench", "libdustbench_kit.so", "libdustbench_pictures.so"}) {
-        if (!fs::exists(folder / name)) continue;  // a program of static libraries has no kit beside it
+        if (!fs::exists(folder / name)) continue;  // a statically linked program has no kit next to it
         const std::string content = contentOf(folder / name);
         EXPECT_EQ(content.find(source.string()), std::string::npos) << name;
     }
@@ -150,7 +150,7 @@ TEST_F(Data, AFileStandsWhereverANameDoes) {
     EXPECT_THAT(lost.err, AllOf(HasSubstr("no such file"), HasSubstr("mine.toml'?")));
 }
 
-/// Methods whose parameters name files of data, with such a parameter.
+/// Methods with a parameter that refers to a data file, and that parameter.
 std::vector<std::pair<std::string, Parameter>> fileParameters() {
     std::vector<std::pair<std::string, Parameter>> found;
     for (const MethodInfo& info : methods())

@@ -1,4 +1,4 @@
-// What a subcommand declares, as plain text: the source of the man page and of the completions of shells.
+// The declaration of a subcommand as plain text, from which the manual page and shell completions are generated.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@ struct DeclaredOption {
     std::vector<std::string> names;  ///< `--frames`, `-P`; one word for a positional argument
     std::string placeholder;         ///< `N`, `FILE`, `svg|png|pdf`; empty for flags
     std::string help;
-    std::string initial;  ///< empty: none
+    std::string initial;  ///< default value; empty if there is none
     bool isPositional = false;
     bool isRequired = false;
     bool repeats = false;
 
     [[nodiscard]] bool takesValue() const { return isPositional || !placeholder.empty(); }
-    /// The words that the placeholder lists: `svg|png|pdf`; none for other placeholders.
+    /// The alternatives in a placeholder such as `svg|png|pdf`; none for other placeholders.
     [[nodiscard]] std::vector<std::string> words() const;
-    /// The list that the help refers to by "one of `dustbench list scenes`": `scenes`; or empty.
+    /// `scenes` if the help contains "one of `dustbench list scenes`"; otherwise empty.
     [[nodiscard]] std::string listKind() const;
     [[nodiscard]] bool takesFile() const;
 };

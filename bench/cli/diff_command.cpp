@@ -1,4 +1,4 @@
-// `dustbench diff`: the difference of an image file from a reference, in numbers and as a heat map.
+// `dustbench diff`: the difference between an image file and a reference, in numbers and as a heat map.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ bench::Picture pictureOf(const std::string& file) {
     return bench::preparePicture(pictures::readImage(file), "'" + file + "'");
 }
 
-/// `null` where there is no number.
+/// Undefined values are `null`.
 void printJson(const Differences& found) {
     using Json = nlohmann::ordered_json;
     const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
@@ -58,13 +58,13 @@ void printTable(const Differences& found, double pixelsPerDegree) {
         return value ? fixed(*value, digits) : std::string();
     };
     std::cout << textTable(
-        {{"metric", "value", "means"},
+        {{"metric", "value", "meaning"},
          {"psnr_db", cell(found.error.psnrDb, 4), "higher is closer; none for identical pictures"},
          {"ssim", cell(found.ssim.value, 6), "1: same structure; none below 11x11 pixels"},
          {"flip", cell(found.flip.value, 6),
           fmt::format("0: no visible difference, 1: maximum; at {} pixels per degree", pixelsPerDegree)},
-         {"rmse_linear", cell(found.error.rmseLinear, 6), "of linear light; 0: no difference"},
-         {"identical", found.error.identical ? "1" : "0", "1: a display shows the same"}});
+         {"rmse_linear", cell(found.error.rmseLinear, 6), "in linear light; 0: no difference"},
+         {"identical", found.error.identical ? "1" : "0", "1: identical on a display"}});
 }
 
 int diff(const DiffOptions& options) {
@@ -88,21 +88,20 @@ int diff(const DiffOptions& options) {
 
 Command diffCommand() {
     auto options = std::make_shared<DiffOptions>();
-    return {"diff", "PSNR, SSIM, FLIP and RMSE of an image file against a reference, and a heat map",
-            "Reads all formats of OpenImageIO; integers are sRGB, floats linear, unless the file says otherwise. Both "
-            "must be\n"
-            "opaque and of one size. What of a file is ignored is said on stderr.\n"
-            "reports/METRICS.md defines the metrics.",
-            [options](Arguments& arguments) {
-                arguments.required("reference", "FILE", "the reference image", options->reference);
-                arguments.required("image", "FILE", "the image to judge", options->image);
-                arguments.flag("--json", "an object with psnr_db, ssim, flip, rmse_linear, identical", options->json);
-                arguments.text("--out", "FILE.png", "write FLIP's map: black for 0, pale yellow for 1", options->out);
-                arguments.number("--pixels-per-degree", "resolution at which the viewer sees the pixels, for FLIP",
-                                 options->pixelsPerDegree, bench::minimumPixelsPerDegree,
-                                 bench::maximumPixelsPerDegree);
-            },
-            [options] { return diff(*options); }};
+    return {
+        "diff", "PSNR, SSIM, FLIP and RMSE of an image file against a reference, and a heat map",
+        "Reads all formats of OpenImageIO. Integers are sRGB and floats linear, unless the file states otherwise.\n"
+        "Both images must be opaque and have the same size. Ignored parts of a file are listed on stderr.\n"
+        "reports/METRICS.md defines the metrics.",
+        [options](Arguments& arguments) {
+            arguments.required("reference", "FILE", "the reference image", options->reference);
+            arguments.required("image", "FILE", "the image to compare with it", options->image);
+            arguments.flag("--json", "print JSON: psnr_db, ssim, flip, rmse_linear, identical", options->json);
+            arguments.text("--out", "FILE.png", "write FLIP's error map: black for 0, pale yellow for 1", options->out);
+            arguments.number("--pixels-per-degree", "for FLIP: pixels per degree of the observer's field of view",
+                             options->pixelsPerDegree, bench::minimumPixelsPerDegree, bench::maximumPixelsPerDegree);
+        },
+        [options] { return diff(*options); }};
 }
 
 }  // namespace dustbench::cli

@@ -88,7 +88,7 @@ TEST_F(DiffCommand, WritesAHeatMapThatIsBrightWhereThePicturesDiffer) {
 }
 
 TEST_F(DiffCommand, SeesLessFromFartherAway) {
-    // Stripes one pixel wide: with more pixels per degree a viewer sees them blurred.
+    // Stripes one pixel wide: with more pixels per degree, an observer sees them blurred.
     pictures::Image stripes = gradient(64, 48, 0), even = stripes;
     for (std::size_t i = 0; i < stripes.pixels.size(); ++i)
         stripes.pixels[i] += glm::vec4(glm::vec3(i % 2 ? 0.1f : -0.1f), 0);
@@ -102,7 +102,7 @@ TEST_F(DiffCommand, SeesLessFromFartherAway) {
 
 TEST_F(DiffCommand, RefusesWhatItCannotCompareInOneLine) {
     const std::string good = write("good.exr", gradient(40, 30, 0));
-    expectRefused(diff(good, write("small.png", gradient(30, 40, 0))), "images of different size");
+    expectRefused(diff(good, write("small.png", gradient(30, 40, 0))), "images differ in size");
     expectRefused(diff(good, "'" + (folder_ / "missing.png").string() + "'"), "missing.png");
     expectRefused(diff("'" + folder_.string() + "'", good), "it is a folder");
 

@@ -1,4 +1,4 @@
-// `--dust`: particles from files, those of our own export among them.
+// `--dust`: particles from files, including those of our own export.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ class DustOption : public Dustbench {
         const std::size_t at = record.find("\"state_hash\"");
         return record.substr(at, record.find('\n', at) - at);
     }
-    /// A cloud at the camera's sight, one row a particle; with `times` of them.
+    /// A cloud in the camera's view, one row per particle, for `times` moments.
     [[nodiscard]] std::string table(int times) const {
         const fs::path file = folder_ / "cloud.csv";
         std::ofstream csv(file);
@@ -71,7 +71,7 @@ TEST_F(DustOption, TheFilesAreInputsAndTheNameIsOfTheKey) {
     EXPECT_THAT(record, HasSubstr("\"dust\": \"" + dust + "\""));
     EXPECT_THAT(record, HasSubstr("\"file\": \"" + dust + "\""));
     EXPECT_THAT(record, HasSubstr("dust=" + dust));
-    // What changes in the file makes the result outdated.
+    // A change of the file makes the result outdated.
     std::ofstream(dust, std::ios::app) << "9,1,1,1,1,1,0.5\n";
     const Called again = call("run --frames 31 --images 30 --metrics " + std::string(world) +
                               "--method billboard --dust " + dust + " --out " + (folder_ / "out").string());
@@ -90,7 +90,7 @@ TEST_F(DustOption, WhatEndsBeforeTheRunIsRefusedBeforeItBegins) {
     EXPECT_THAT(both.err, HasSubstr("parameter particles: got 7 with --dust"));
     const Called alone = call("run --method billboard --frames 2 --dust-columns id=a --out " + out());
     EXPECT_EQ(alone.code, 3);
-    EXPECT_THAT(alone.err, HasSubstr("--dust-columns: got it without --dust"));
+    EXPECT_THAT(alone.err, HasSubstr("--dust-columns: requires --dust"));
 }
 
 TEST_F(DustOption, ASuiteNamesItRelativeToItself) {

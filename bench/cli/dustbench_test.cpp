@@ -39,7 +39,7 @@ TEST_F(Dustbench, WrongUseIsOneLineAndExitCodeThree) {
     ASSERT_FALSE(methods().empty());
     const std::string method = methods().front().id;
     const std::vector<std::pair<std::string, std::string>> mistakes{
-        {"", "no command is given"},
+        {"", "no command given"},
         {"--bogus", "unknown option '--bogus'"},
         {"lst", "'list'"},
         {"list method", "'methods'"},
@@ -52,7 +52,7 @@ TEST_F(Dustbench, WrongUseIsOneLineAndExitCodeThree) {
         {"run --method " + method + " --out o -P particles=1000000000", "60 GB"},
         {"run --method " + method + " --out o -P particles", "name=value"},
         {"run --method " + method + " --out o -P particles=", "got '', expected a value"},
-        {"run --method " + method + " --out o -P particles=1,,2", "on either side of ','"},
+        {"run --method " + method + " --out o -P particles=1,,2", "on each side of ','"},
         {"run --method " + method + " --out o --frames 0", "1..10000000"},
         {"run --method " + method + " --out o --frames many", "'many'"},
         {"run --method " + method + " --out o --frame 5", "'--frames'"},
@@ -228,7 +228,7 @@ TEST_F(Dustbench, AListOfValuesIsARunEach) {
 
     const Called tables = call(fmt::format("report {} --text", out()));
     ASSERT_EQ(tables.code, 0) << tables.err;
-    // The cloud has not grown to its number yet: `invalid: …` is a line of its own.
+    // The cloud has not reached its number of particles: `invalid: …` is a separate line.
     EXPECT_EQ(std::ranges::count(tables.out, '\n'), 3 + 6 + 1 + 1) << tables.out;
     EXPECT_THAT(tables.out, AllOf(HasSubstr(", particles=150 speed=20 "), HasSubstr(" runs ")));
 }
@@ -328,7 +328,7 @@ TEST_F(Dustbench, CtrlCEndsAnExperimentAtOnce) {
     waitpid(child, &status, 0);
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 2);
-    EXPECT_TRUE(contentOf(errors).ends_with("ageing\naborted; the same command resumes\n")) << contentOf(errors);
+    EXPECT_TRUE(contentOf(errors).ends_with("ageing\naborted; repeat the command to resume\n")) << contentOf(errors);
 }
 
 TEST_F(Dustbench, ARunThatTakesTooLongIsATimeoutAndExitCodeOne) {
@@ -341,7 +341,7 @@ TEST_F(Dustbench, ARunThatTakesTooLongIsATimeoutAndExitCodeOne) {
     ASSERT_EQ(runs(out()).size(), 1u);
     const bench::StoredRun run = bench::readRunFile(runs(out()).at(0) / "run.json");
     EXPECT_EQ(run.status, bench::RunStatus::timeout);
-    EXPECT_THAT(run.reason, HasSubstr("no end after 2 s"));
+    EXPECT_THAT(run.reason, HasSubstr("not finished after 2 s"));
 }
 
 TEST_F(Dustbench, ADryRunOnlyPrintsTheList) {

@@ -1,4 +1,4 @@
-// `dustbench env`: describes this machine, disturbances of measurements, and missing software.
+// `dustbench env`: describes this machine, and reports disturbances of measurements and missing software.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -34,16 +34,16 @@ void lookAtGpu(Found& found) {
         provenance.device = device.info();
         provenance.gpuTimersTrusted = gpu::timerQueriesAreTrue(device);
         if (device.isSoftware())
-            provenance.warnings.push_back("no GPU: the CPU draws the pictures, on the cores that everything else uses");
+            provenance.warnings.push_back("no GPU: the CPU draws the pictures, on the same cores as everything else");
         if (!provenance.gpuTimersTrusted)
-            provenance.warnings.push_back("timer queries of this OpenGL are wrong: gpu_ms stays empty");
+            provenance.warnings.push_back("this OpenGL's timer queries are wrong: gpu_ms stays empty");
     } catch (const InputError& error) {
         provenance.warnings.push_back(std::string("missing: ") + error.what());
     }
 }
 
 Found look() {
-    // A user error, not a fact about the machine.
+    // An unknown adapter is a user error, not a fact about the machine.
     if (const std::string asked = gpu::askedAdapter(); !asked.empty())
         (void)gpu::findAdapter(gpu::listAdapters(), asked);
     Found found;
@@ -75,13 +75,13 @@ std::string json(const Found& found) {
     return bench::provenanceToJson(found.provenance, found.adapters, cells);
 }
 
-/// `1: surfaceless, llvmpipe (LLVM 15.0.6, 256 bits), software; taken: no hardware adapter: surfaceless`
+/// `1: surfaceless, llvmpipe (LLVM 15.0.6, 256 bits), software; chosen: no hardware adapter: surfaceless`
 std::string adapterText(const gpu::Adapter& adapter, const gpu::DeviceInfo& taken) {
     std::string text = fmt::format("{}: {}, ", adapter.index, adapter.name);
     if (!adapter.problem.empty()) return text + adapter.problem;
     if (adapter.platform == gpu::Adapter::Platform::surfaceless) text += adapter.renderer + ", ";
     text += gpu::kindName(adapter.kind);
-    return adapter.index == taken.adapterIndex ? text + "; taken: " + taken.adapterWhy : text;
+    return adapter.index == taken.adapterIndex ? text + "; chosen: " + taken.adapterWhy : text;
 }
 
 void print(const Found& found) {
@@ -119,8 +119,8 @@ void print(const Found& found) {
 
 Command envCommand() {
     auto asJson = std::make_shared<bool>(false);
-    return {"env", "Describe this machine: what it is, what disturbs measurements, what is missing", "",
-            [asJson](Arguments& arguments) { arguments.flag("--json", "one object", *asJson); },
+    return {"env", "Describe this machine, disturbances of measurements and missing software", "",
+            [asJson](Arguments& arguments) { arguments.flag("--json", "print JSON", *asJson); },
             [asJson] {
                 const Found found = look();
                 if (*asJson)

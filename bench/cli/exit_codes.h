@@ -10,7 +10,7 @@ enum ExitCode {
     exitBadInput = 3,
     exitInternal = 4,
     exitRegression = 5,
-    exitNothingFits = 5,  ///< as a regression: a limit that was asked for is not met
+    exitNothingFits = 5,  ///< like a regression, a requested limit is not met
     exitNotComparable = 6,
 };
 

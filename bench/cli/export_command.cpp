@@ -1,4 +1,4 @@
-// `dustbench export`: the volumes of one method's run, without measuring it.
+// `dustbench export`: writes the volumes of a run without measuring it.
 #include <iostream>
 #include <memory>
 
@@ -31,7 +31,7 @@ bench::PlannedRun plannedExport(const ExportOptions& options) {
     const auto runs = bench::expandParameters(spec, findMethod(spec.method), options.world.parameterLists());
     if (runs.size() != 1)
         throw InputError("-P: got " + std::to_string(runs.size()) +
-                         " combinations of values, allowed for an export: one value for each parameter");
+                         " combinations of values, allowed: one value for each parameter");
     bench::requireChangesWithinRun(runs.front().spec);
     return runs.front();
 }
@@ -64,8 +64,8 @@ int exportVolumes(const ExportOptions& options) {
 Command exportCommand() {
     auto options = std::make_shared<ExportOptions>();
     return {"export", "Write a method's volumes for ParaView, Blender, Houdini …",
-            "The state in a frame is exactly the one that `run` has there. reports/SCHEMA.md describes the\n"
-            "files. Prints the series to open.",
+            "Each frame has exactly the state that it has in `run`. Prints the series to open.\n"
+            "reports/SCHEMA.md describes the files.",
             [options](Arguments& arguments) {
                 options->world.declare(arguments);
                 options->volumes.declareRequired(arguments);

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array<std::string_view, 4> videoKinds{".mp4", ".mkv", ".mov", ".webm"};
-/// A GIF counts in hundredths of a second, and programs slow down faster ones.
+/// A GIF's frame times are whole hundredths of a second, and programs slow down faster ones.
 constexpr int gifFramesPerSecond = 25;
 
 /// Empty if it is not on the PATH.
@@ -30,7 +30,7 @@ fs::path findFfmpeg() {
     return {};
 }
 
-/// The file under another name until it is complete; its extension tells ffmpeg the format.
+/// The file's name until it is complete. It keeps the extension, from which ffmpeg infers the format.
 fs::path partOf(const fs::path& file) {
     return file.parent_path() / (".part-" + file.filename().string());
 }
@@ -58,7 +58,8 @@ void writeFilm(const char* option, const fs::path& file, const fs::path& images,
     fs::remove(log);
     if (!outcome.succeeded() || !fs::exists(part)) {
         fs::remove(part);
-        throw InputError(fmt::format("{}: ffmpeg: {}", option, outcome.succeeded() ? "no film" : outcome.reason()));
+        throw InputError(
+            fmt::format("{}: ffmpeg: {}", option, outcome.succeeded() ? "wrote no file" : outcome.reason()));
     }
     fs::rename(part, file);
 }
@@ -75,11 +76,11 @@ std::vector<std::string> videoOptions(const fs::path& file) {
 void requireFilm(const FilmFiles& files) {
     if (!files.wanted()) return;
     if (!files.video.empty() && std::ranges::find(videoKinds, fs::path(files.video).extension()) == videoKinds.end())
-        throw InputError(fmt::format("--video: got '{}', allowed: a file .mp4, .mkv, .mov or .webm", files.video));
+        throw InputError(fmt::format("--video: got '{}', allowed: a .mp4, .mkv, .mov or .webm file", files.video));
     if (!files.gif.empty() && fs::path(files.gif).extension() != ".gif")
-        throw InputError(fmt::format("--gif: got '{}', allowed: a file .gif", files.gif));
+        throw InputError(fmt::format("--gif: got '{}', allowed: a .gif file", files.gif));
     if (findFfmpeg().empty())
-        throw InputError(fmt::format("{}: the program ffmpeg is not on the PATH; Debian's package ffmpeg brings it",
+        throw InputError(fmt::format("{}: the program ffmpeg is not on the PATH; on Debian, install the package ffmpeg",
                                      files.video.empty() ? "--gif" : "--video"));
 }
 

@@ -1,4 +1,4 @@
-// The pictures of a run as a film, put together by the program ffmpeg after the run; nothing of it is timed.
+// Makes a film of the pictures of a run with ffmpeg, after the run, so that it does not affect the times.
 #pragma once
 
 #include <cstdint>
@@ -7,17 +7,17 @@
 
 namespace dustbench::cli {
 
-/// Files of `--video` and `--gif`; empty: not wanted.
+/// Files of `--video` and `--gif`; empty if not requested.
 struct FilmFiles {
     std::string video, gif;
     [[nodiscard]] bool wanted() const { return !video.empty() || !gif.empty(); }
 };
 
-/// Call before the run. Throws InputError for a file name of another kind, or if ffmpeg is not on the PATH.
+/// Call before the run. Throws InputError for another file extension, or if ffmpeg is not on the PATH.
 void requireFilm(const FilmFiles& files);
 
-/// Writes the films of `images` (f000000.png, …), of which every `every`-th frame is there, at the world's speed. A
-/// file appears whole. Throws InputError with what ffmpeg said.
+/// Writes the films from `images` (f000000.png, …), which contains every `every`-th frame. They play in real time. A
+/// file appears only when it is complete. Throws InputError with ffmpeg's message.
 void writeFilms(const FilmFiles& files, const std::filesystem::path& images, std::int64_t every);
 
 }  // namespace dustbench::cli

@@ -23,7 +23,7 @@ class Film : public Dustbench {
         setenv("PATH", path_.c_str(), 1);
         Dustbench::TearDown();
     }
-    /// An ffmpeg that notes its arguments and the pictures that it finds.
+    /// An ffmpeg that records its arguments and the pictures that it finds.
     void install(const std::string& last) const {
         const fs::path bin = folder_ / "bin";
         fs::create_directories(bin);
@@ -75,8 +75,8 @@ TEST_F(Film, ThatFailsIsOneLineAndLeavesNothing) {
 TEST_F(Film, IsRefusedBeforeTheRun) {
     install("");
     const std::vector<std::pair<std::string, std::string>> mistakes{
-        {"--video x.avi", "--video: got 'x.avi', allowed: a file .mp4"},
-        {"--gif x.mp4", "--gif: got 'x.mp4', allowed: a file .gif"},
+        {"--video x.avi", "--video: got 'x.avi', allowed: a .mp4"},
+        {"--gif x.mp4", "--gif: got 'x.mp4', allowed: a .gif file"},
         {"--gif x.gif -P particles=100,200", "--gif: got 2 runs, allowed: 1"}};
     for (const auto& [options, expected] : mistakes) {
         const std::string command =

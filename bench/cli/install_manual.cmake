@@ -1,4 +1,4 @@
-# Writes manual page and completions into the prefix, by the program itself.
+# Installs the manual page and the completions, which the program prints.
 set(PREFIX "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}")
 function(write_output FILE)
   message(STATUS "Installing: ${PREFIX}/${FILE}")

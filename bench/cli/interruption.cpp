@@ -17,9 +17,9 @@ void countInterruption(int) {
     interruptions = interruptions + 1;
 }
 
-/// Calls nothing that is unsafe in a signal's handler.
+/// Calls only functions that are safe in a signal handler.
 void endAtOnce(int) {
-    constexpr std::string_view message = "aborted; the same command resumes\n";
+    constexpr std::string_view message = "aborted; repeat the command to resume\n";
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message.data(), message.size());
     _exit(exitAborted);
 }

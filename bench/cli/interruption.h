@@ -1,14 +1,14 @@
-// Turns Ctrl-C, `kill` and a closed terminal into a flag to poll, so that no work is left half done.
+// Turns Ctrl-C, `kill` and a closed terminal into a flag to poll, so that results are never left incomplete.
 #pragma once
 
 namespace dustbench::cli {
 
-/// From now on these signals only set the flag.
+/// After this call, these signals only set the flag.
 void listenForInterruption();
 [[nodiscard]] bool interrupted();
 
-/// While it lives, these signals end the program at once with exitAborted: for work that cannot poll and writes
-/// nothing.
+/// During its lifetime, these signals end the program immediately with exitAborted. For work that cannot poll and
+/// writes nothing.
 class EndsWhenInterrupted {
  public:
     EndsWhenInterrupted();

@@ -1,4 +1,4 @@
-// `dustbench list`: what this build and its data provide.
+// `dustbench list`: the methods, scenes and other things that this build and its data provide.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -57,8 +57,8 @@ void printItem(const bench::CatalogueItem& item, bool inDetail) {
 void printRefusedLibraries() {
     for (const bench::MethodLibrary& library : bench::methodLibraries())
         if (!library.whyNot.empty())
-            std::cout << files::printable(fmt::format("  {:<20} {} is not taken: {}", library.id, library.file.string(),
-                                                      library.whyNot))
+            std::cout << files::printable(fmt::format("  {:<20} {} is not loaded: {}", library.id,
+                                                      library.file.string(), library.whyNot))
                       << '\n';
 }
 
@@ -82,7 +82,7 @@ int list(const ListOptions& options) {
             const bool ofLibraries = kind == "methods" || (kind == "parts" && !options.what.empty());
             if (ofLibraries && options.id.empty()) printRefusedLibraries();
             if (kind == "methods" && !options.what.empty() && options.id.empty()) {
-                std::cout << "every method also has the parameters of the world:\n";
+                std::cout << "parameters of the world, which every method has as well:\n";
                 printParameters(bench::worldParameterList());
             }
         }
@@ -99,14 +99,15 @@ Command listCommand() {
     return {
         "list", "List methods, scenes, drives, suites, experiments, metrics and parts of particle systems",
         "`dustbench list methods` shows every parameter that -P sets, with its default and allowed values. `dustbench "
-        "list parts` is the manual of particle systems, the files of data/particles: `size/linear` is a table [size] "
-        "with part = \"linear\" and any of the keys shown. There may be several of life, shading and force: [[force]].",
+        "list parts` documents the files of data/particles, which define particle systems: `size/linear` is a table "
+        "[size] with part = \"linear\" and any of the keys shown. There may be several of life, shading and force: "
+        "[[force]].",
         [options](Arguments& arguments) {
             arguments.text("what", fmt::format("{}", fmt::join(bench::catalogueKinds(), "|")), "default: all",
                            options->what);
             arguments.text("id", "", "only this one", options->id);
-            arguments.flag("--ids", "the ids alone, one a line", options->ids);
-            arguments.flag("--json", "an array of objects with `id`", options->json);
+            arguments.flag("--ids", "print only ids, one per line", options->ids);
+            arguments.flag("--json", "print JSON: an array of objects with `id`", options->json);
         },
         [options] { return list(*options); }};
 }

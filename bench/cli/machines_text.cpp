@@ -16,10 +16,10 @@ using bench::MachineComparison;
 using bench::MachineExperiment;
 using bench::PairedRatio;
 
-/// Of longer lists the rest is counted.
+/// Longer lists end with the number of further items.
 constexpr std::size_t namedCells = 20;
 
-/// Of values that do not fit beside others.
+/// Shortens values that do not fit into a column.
 std::string shortened(const std::string& text) {
     constexpr std::size_t longest = 60;
     return files::printable(text, longest);
@@ -71,7 +71,7 @@ std::vector<std::string> missingCells(const MachineComparison& comparison) {
     return sentences;
 }
 
-/// Ratios far from 1 have few digits.
+/// Ratios far from 1 have three significant digits.
 std::string digits(double ratio) {
     return std::isfinite(ratio) && (ratio < 0.1 || ratio >= 1e5) ? fmt::format("{:.3g}", ratio)
                                                                  : bench::fourDigits(ratio);
@@ -101,13 +101,12 @@ std::string experimentText(const MachineComparison& comparison, const MachineExp
         if (ratio.worlds.size() > 1) addRow(ratio, fmt::format("all {} in common", ratio.common), ratio.all);
     }
     if (rows.empty())
-        return fmt::format("\n{}: no ratio: in no world are there two methods or settings with times\n",
+        return fmt::format("\n{}: no ratio: no world has times of two methods or settings\n",
                            files::printable(experiment.title));
     rows.insert(rows.begin(), heads({"column", "of", "at"}, labelsOf(comparison), {"machines"}));
-    return fmt::format(
-        "\n{}\nratio of its times to those of {}, within each machine, 95 % interval over paired runs\n{}",
-        files::printable(experiment.title), files::printable(experiment.variants[experiment.reference].label),
-        textTable(rows));
+    return fmt::format("\n{}\nratio of times to those of {}, within each machine, 95 % interval over paired runs\n{}",
+                       files::printable(experiment.title),
+                       files::printable(experiment.variants[experiment.reference].label), textTable(rows));
 }
 
 std::string claimsText(const MachineComparison& comparison) {
@@ -129,9 +128,9 @@ std::string machinesText(const MachineComparison& comparison) {
     const bench::MachineRemarks& remarks = comparison.remarks;
     std::string text = hardwareText(comparison);
     text += listOf("cannot be compared", remarks.apart);
-    text += listOf("the programs differ: so may ratios, whatever the machines", remarks.programs);
-    text += listOf("to be known", remarks.notes);
-    text += listOf("missing cells", missingCells(comparison));
+    text += listOf("the programs differ, so ratios may differ whatever the machines", remarks.programs);
+    text += listOf("notes", remarks.notes);
+    text += listOf("missing configurations", missingCells(comparison));
     for (const MachineExperiment& experiment : comparison.experiments) text += experimentText(comparison, experiment);
     return text + claimsText(comparison);
 }

@@ -1,4 +1,4 @@
-// Several machines side by side, as text for a terminal.
+// A comparison of several machines, as text for a terminal.
 #pragma once
 
 #include <string>

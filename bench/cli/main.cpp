@@ -29,12 +29,12 @@
 namespace dustbench::cli {
 namespace {
 
-/// Stderr gets exactly one line, whatever a file's text or name holds.
+/// Prints one line to stderr, even if the message quotes line breaks or control characters from a file.
 void say(std::string_view message, std::string_view kind = "") {
     std::cerr << "dustbench: " << kind << files::printable(message) << std::endl;
 }
 
-/// The machine lacks something. What was done so far is kept, and what was being written is gone.
+/// For errors of the machine, such as a full disk. Finished results are kept; the file being written is removed.
 int abort(std::string_view what) {
     say(what, "aborted: ");
     return exitAborted;
@@ -53,8 +53,8 @@ CommonOptions commonOptions() {
     };
     return {[adapter, data, methodPath](Arguments& arguments) {
                 arguments.texts("--data", "DIR",
-                                "folder of data to search before the delivered data; may be given several times, the "
-                                "first that has a name wins; replaces DUSTBENCH_DATA (folders separated by ':')",
+                                "data folder to search before the installed data; may be given several times, the "
+                                "first that contains a name wins; replaces DUSTBENCH_DATA (folders separated by ':')",
                                 data->emplace_back());
                 arguments.text("--adapter", "N|NAME",
                                "adapter to draw with: index or part of a name listed by `dustbench env`; default: the "
@@ -62,8 +62,8 @@ CommonOptions commonOptions() {
                                *adapter);
                 arguments.texts(
                     "--method-path", "DIR",
-                    "folder of methods from outside, *.dustmethod.so; may be given several times, the first "
-                    "that has a name wins; replaces DUSTBENCH_METHOD_PATH (folders separated by ':')",
+                    "folder of methods built elsewhere, *.dustmethod.so; may be given several times, the first "
+                    "that contains a name wins; replaces DUSTBENCH_METHOD_PATH (folders separated by ':')",
                     methodPath->emplace_back());
             },
             [adapter, data, methodPath, all] {
@@ -76,7 +76,7 @@ CommonOptions commonOptions() {
             }};
 }
 
-/// What was printed may be the result, and a full disk loses it without a sign.
+/// Throws if standard output could not be written: a full disk would otherwise lose the result silently.
 void requireWritten() {
     errno = 0;
     if (std::cout.flush()) return;
@@ -90,9 +90,9 @@ int run(const std::vector<std::string>& argv) {
         bench::loadMethodLibraries();
         return argv.front() == measureRunName ? measureRunCommand(argv) : forecastRunCommand(argv);
     }
-    std::vector<Command> commands{listCommand(),      envCommand(),    runCommand(),   compareCommand(),
-                                  recommendCommand(), suiteCommand(),  mergeCommand(), reproduceCommand(),
-                                  reportCommand(),    exportCommand(), diffCommand(),  viewCommand(),
+    std::vector<Command> commands{listCommand(),      envCommand(),    runCommand(),    compareCommand(),
+                                  recommendCommand(), suiteCommand(),  mergeCommand(),  reproduceCommand(),
+                                  reportCommand(),    exportCommand(), diffCommand(),   viewCommand(),
                                   newMethodCommand(), bundleCommand(), verifyCommand(), selfcheckCommand()};
     std::ranges::move(toolCommands(), std::back_inserter(commands));
     const CommonOptions common = commonOptions();
@@ -105,7 +105,7 @@ int run(const std::vector<std::string>& argv) {
 
 int main(int argc, char** argv) {
     using namespace dustbench;
-    signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its writer, here and in child processes
+    signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit fails instead of killing this process or a child
     try {
         const int code = cli::run({argv + std::min(argc, 1), argv + argc});
         cli::requireWritten();

@@ -12,7 +12,7 @@
 namespace dustbench::cli {
 namespace {
 
-/// The character of UTF-8 that begins at `at`, which moves behind it.
+/// The UTF-8 character that begins at `at`; moves `at` past it.
 std::uint32_t nextCharacter(std::string_view text, std::size_t& at) {
     const auto byte = static_cast<unsigned char>(text[at++]);
     if (byte < 0x80) return byte;
@@ -23,7 +23,8 @@ std::uint32_t nextCharacter(std::string_view text, std::size_t& at) {
     return code;
 }
 
-/// Text as it is: no word of it is a request or an escape of roff, which reads other characters than ASCII's by number.
+/// Escapes text for roff, so that nothing in it is read as a request or an escape. Characters outside ASCII become
+/// numbers.
 std::string literal(std::string_view text) {
     std::string result;
     bool isLineStart = true;
@@ -41,7 +42,7 @@ std::string literal(std::string_view text) {
     return result;
 }
 
-/// Text with a full stop, unless it has an end.
+/// Text with a full stop, unless it ends with one or with an ellipsis.
 std::string sentence(std::string_view text) {
     const bool hasEnd = text.ends_with('.') || text.ends_with("…");
     return literal(text) + (hasEnd ? "" : ".");
@@ -65,7 +66,7 @@ std::string paragraph(const DeclaredOption& option) {
     return text + "\n";
 }
 
-/// `.B dustbench run --method ID --out DIR [OPTIONS]`: what must be given.
+/// `.B dustbench run --method ID --out DIR [OPTIONS]`: the required options.
 std::string synopsis(const DeclaredCommand& command) {
     std::string text = fmt::format("\\fBdustbench {}\\fP", literal(command.name));
     for (const DeclaredOption& option : command.options) {
@@ -77,14 +78,17 @@ std::string synopsis(const DeclaredCommand& command) {
 }
 
 constexpr std::array<std::pair<int, const char*>, 7> exitStatuses{
-    {{exitOk, "Everything was done."},
+    {{exitOk, "Success."},
      {exitRunFailed,
-      "A run failed or timed out; the others were done. verify: what was run again is not what the bundle says."},
-     {exitAborted, "Interrupted, or the machine lacks something, such as room on the disk. The same command resumes."},
-     {exitBadInput, "Wrong use, bad input or a machine without OpenGL; nothing was measured."},
-     {exitInternal, "Internal error: a fault of dustbench."},
-     {exitRegression, "compare --fail-on-regression: something is slower than allowed, or fails now."},
-     {exitNotComparable, "compare: the folders are not comparable."}}};
+      "A run failed or timed out; the others were completed. verify: a repeated simulation differs from the bundle."},
+     {exitAborted, "Interrupted, or a resource such as disk space ran out. Repeat the command to resume."},
+     {exitBadInput, "Wrong usage, invalid input or no OpenGL; nothing was measured."},
+     {exitInternal, "Internal error: a bug in dustbench."},
+     {exitRegression,
+      "compare --fail-on-regression: the second folder is slower than allowed, or a run fails only there. recommend: "
+      "nothing fits the budget."},
+     {exitNotComparable,
+      "compare, report: the folders are not comparable. recommend: no setting has both a time and a quality."}}};
 
 }  // namespace
 
@@ -92,7 +96,7 @@ std::string manPage(const std::vector<DeclaredCommand>& commands, const std::vec
                     const std::string& version) {
     std::string page = fmt::format(
         ".TH DUSTBENCH 1 \"\" \"dustbench {}\" \"User Commands\"\n"
-        ".SH NAME\ndustbench \\- real\\-time volumetric effects behind one vehicle, compared and measured\n"
+        ".SH NAME\ndustbench \\- compare and benchmark methods for real\\-time volumetric effects\n"
         ".SH SYNOPSIS\n.B dustbench\n.I COMMAND\n[OPTIONS]\n.SH COMMANDS\n",
         literal(version));
     for (const DeclaredCommand& command : commands)

@@ -1,4 +1,4 @@
-// The manual page dustbench(1), written from what the subcommands declare.
+// Generates the manual page dustbench(1) from the declarations of the subcommands.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace dustbench::cli {
 
-/// In man(7)'s language. `common`: options of every command.
+/// In the format of man(7). `common`: options of every command.
 [[nodiscard]] std::string manPage(const std::vector<DeclaredCommand>& commands,
                                   const std::vector<DeclaredOption>& common, const std::string& version);
 

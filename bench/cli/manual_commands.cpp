@@ -1,4 +1,4 @@
-// `dustbench completion` and `dustbench manual`: what packages install beside the program.
+// `dustbench completion` and `dustbench manual`: print shell completions and the manual page, which packages install.
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -15,8 +15,8 @@ namespace {
 
 Command completionCommand(std::function<int(const std::string&)> complete) {
     auto shell = std::make_shared<std::string>();
-    return {"completion", "Print the script by which a shell completes dustbench's command line",
-            "For this session of bash: `source <(dustbench completion bash)`.",
+    return {"completion", "Print the script with which a shell completes dustbench's command line",
+            "To use it in this bash session: `source <(dustbench completion bash)`.",
             [shell](Arguments& arguments) { arguments.required("shell", "bash|zsh|fish", "the shell", *shell); },
             [shell, complete = std::move(complete)] { return complete(*shell); }};
 }

@@ -1,4 +1,4 @@
-// The manual page and the completions, by the programs that read them.
+// The manual page and the completions, tested with the programs that read them.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::vector<std::string> linesOf(const std::string& text) {
 
 class ManualCommands : public Dustbench {
  protected:
-    /// What bash offers for the last of these words, with the program on the path.
+    /// The completions that bash offers for the last of these words, with the program on the path.
     [[nodiscard]] std::vector<std::string> completed(const std::string& words) const {
         std::ofstream(folder_ / "complete.sh")
             << "PATH=" << fs::path(DUSTBENCH_PROGRAM).parent_path().string() << ":$PATH\n"
@@ -41,7 +41,7 @@ class ManualCommands : public Dustbench {
     }
 };
 
-/// Where the change is judged, all of it is installed: not finding it is a mistake.
+/// In CI all tools are installed, so a missing one is an error.
 bool isInstalled(const char* tool) {
     const bool isThere = std::system(fmt::format("command -v {} > /dev/null", tool).c_str()) == 0;
     EXPECT_TRUE(isThere || std::getenv("CI") == nullptr) << tool;

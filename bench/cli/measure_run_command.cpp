@@ -1,4 +1,4 @@
-// The process of one run: measures, writes the run's files and reports progress to its parent on stdout. Or it only
+// The process of one run: measures it, writes its files and reports progress to the parent process on stdout; or only
 // starts the run and prints a forecast of its duration.
 #include <unistd.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 bench::RunSpec specOf(const std::vector<std::string>& argv) {
     if (argv.size() < 4 || argv[3] != "--")
-        throw InputError(argv[0] + ": got other arguments than SPEC FOLDER -- COMMAND");
+        throw InputError(argv[0] + ": expected the arguments SPEC FOLDER -- COMMAND");
     return bench::specFromJson(files::wholeText(argv[1], "a run's specification"));
 }
 

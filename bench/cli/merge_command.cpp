@@ -1,4 +1,4 @@
-// `dustbench merge`: combines the results of several machines in one folder.
+// `dustbench merge`: merges the results of several machines into one folder.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -23,7 +23,7 @@ struct MergeOptions {
     std::vector<std::string> sources;
 };
 
-/// Each difference between a run's machine and that of the first run, once.
+/// Prints each difference between the machine of a run and that of the first run, once.
 void sayWhereMachinesDiffer(const bench::StoredRuns& runs) {
     const bench::StoredRun* first = nullptr;
     std::set<std::string> said;
@@ -32,11 +32,11 @@ void sayWhereMachinesDiffer(const bench::StoredRuns& runs) {
         if (!first) first = &run;
         for (const auto& [field, mine, other] : bench::differences(*first, run, bench::machineFields()))
             if (const std::string text = fmt::format("{}: '{}' and '{}'", field, mine, other); said.insert(text).second)
-                std::cerr << "note: the runs are of different machines, " << files::printable(text) << "\n";
+                std::cerr << "note: the runs are from different machines, " << files::printable(text) << "\n";
     }
 }
 
-/// Plans, with `results` just opened for it. What is refused leaves no empty folder that was `missing` before.
+/// Plans the copies. If that fails, removes the empty folder of `results` if it was `missing` before.
 bench::MergePlan planWhole(const std::vector<bench::MergeSource>& sources, const bench::ResultsFolder& results,
                            const std::vector<fs::path>& missing) {
     try {
@@ -61,7 +61,7 @@ int mergeFolders(const MergeOptions& options) {
     const bench::MergePlan plan = planWhole(sources, results, missing);
     listenForInterruption();
     if (!bench::merge(plan, results, interrupted)) {
-        std::cerr << "aborted; the same command resumes" << std::endl;
+        std::cerr << "aborted; repeat the command to resume" << std::endl;
         return exitAborted;
     }
     sayWhereMachinesDiffer(results.runs());
@@ -77,10 +77,10 @@ int mergeFolders(const MergeOptions& options) {
 Command mergeCommand() {
     auto options = std::make_shared<MergeOptions>();
     return {"merge", "Merge the results of several machines into one folder",
-            "Existing runs are kept; two different results of one run are refused.",
+            "Existing runs are kept. Two different results of the same run are an error.",
             [options](Arguments& arguments) {
                 arguments.required("--out", "DIR", "folder for the merged results; created if missing", options->out);
-                arguments.requiredTexts("folders", "DIR", "folders of results: the shards of a suite",
+                arguments.requiredTexts("folders", "DIR", "results folders, such as the shards of a suite",
                                         options->sources);
             },
             [options] { return mergeFolders(*options); }};

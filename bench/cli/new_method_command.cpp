@@ -1,4 +1,4 @@
-// `dustbench new-method`: a project of one method, to be built outside of this tree.
+// `dustbench new-method`: creates the project of a method that is built outside this tree.
 #include <fmt/format.h>
 
 #include <array>
@@ -29,7 +29,7 @@ struct TemplateFile {
 constexpr std::array<TemplateFile, 3> templateFiles{
     {{"CMakeLists.txt", "CMakeLists.txt"}, {"method.cpp", "@ID@.cpp"}, {"method_test.cpp", "@ID@_test.cpp"}}};
 
-/// `soft_dust`: `SoftDust` with no separator, `Soft dust` with a space.
+/// `soft_dust` becomes the class `SoftDust`, and below the title `Soft dust`.
 std::string className(const std::string& id) {
     std::string name;
     bool isStart = true;
@@ -57,18 +57,18 @@ std::string filledIn(std::string text, const std::string& id) {
 void requireNew(const std::string& id) {
     static const std::regex allowed("[a-z][a-z0-9_]*");
     if (!std::regex_match(id, allowed))
-        throw InputError(fmt::format("method '{}': allowed: lower case letters, digits and '_', a letter first", id));
+        throw InputError(fmt::format("method '{}': allowed: lower-case letters, digits and '_', a letter first", id));
     if (id.ends_with("_test") || id.ends_with("_bench"))
         throw InputError(
-            fmt::format("method '{}': files with this ending are tests or benchmarks, choose another", id));
+            fmt::format("method '{}': this ending is reserved for tests and benchmarks; choose another name", id));
     if (std::ranges::find(methods(), id, &MethodInfo::id) != methods().end())
-        throw InputError(fmt::format("method '{}': is there already, see `dustbench list methods {}`", id, id));
+        throw InputError(fmt::format("method '{}' already exists, see `dustbench list methods {}`", id, id));
     if (fs::exists(fs::symlink_status(id)))
-        throw InputError(fmt::format("folder '{}': is there already, expected a new name", id));
+        throw InputError(fmt::format("folder '{}' already exists; choose a new name", id));
 }
 
-/// What CMake needs to be told of this installation: ` -DCMAKE_PREFIX_PATH=/opt/dustbench`, nothing where it looks
-/// anyway.
+/// The option by which CMake finds this installation: ` -DCMAKE_PREFIX_PATH=/opt/dustbench`; empty for the prefixes
+/// that CMake searches by default.
 std::string prefixOption() {
     const fs::path prefix = fs::read_symlink("/proc/self/exe").parent_path().parent_path();
     if (!fs::exists(prefix / "lib/cmake/dustbench/dustbenchConfig.cmake"))
@@ -86,7 +86,7 @@ int newMethod(const std::string& id) {
         bench::writeWhole(fs::path(id) / filledIn(file.to, id), filledIn(files::wholeText(from, "template"), id));
     }
     std::cout << fmt::format(
-        "{0}/ is a project of its own. Build and test it, then let dustbench find it:\n"
+        "Created the project {0}/. Build and test it, then run the method with dustbench:\n"
         "    cmake -S {0} -B {0}/build{1} && cmake --build {0}/build && ctest --test-dir {0}/build\n"
         "    dustbench run --method-path {0}/build --method {0} --out out/{0}\n",
         id, prefixOption());
@@ -97,10 +97,10 @@ int newMethod(const std::string& id) {
 
 Command newMethodCommand() {
     auto id = std::make_shared<std::string>();
-    return {"new-method", "Write a project with a method of your own, which draws dots, and its test",
-            "The folder ID is created in the working directory.",
+    return {"new-method", "Create the project of a new method, which draws dots, with its test",
+            "Creates the folder ID in the working directory.",
             [id](Arguments& arguments) {
-                arguments.required("id", "", "of the method: lower case letters, digits and '_'", *id);
+                arguments.required("id", "", "id of the method: lower-case letters, digits and '_'", *id);
             },
             [id] { return newMethod(*id); }};
 }

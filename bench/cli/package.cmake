@@ -1,5 +1,5 @@
-# What `cmake --install` and `cpack` put where: the program and its libraries, what it looks up beside them, the headers of
-# contract and kit, the manual page and the completions of shells.
+# Files for `cmake --install` and `cpack`: the program and its libraries, the data and templates that it reads, the headers
+# of contract and kit, the manual page and the shell completions.
 set_target_properties(dustbench PROPERTIES INSTALL_RPATH "$ORIGIN/../lib/dustbench/kit")
 install(TARGETS dustbench RUNTIME DESTINATION bin)
 install(TARGETS dustbench_kit dustbench_openimageio dustbench_vdb_reader
@@ -37,18 +37,18 @@ install(SCRIPT ${CMAKE_CURRENT_LIST_DIR}/install_manual.cmake)
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR "The dustbench maintainers")
 set(CPACK_PACKAGE_CONTACT "The dustbench maintainers")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "compares and measures real-time volumetric effects")
-set(CPACK_PACKAGE_DESCRIPTION "Methods for real-time dust, smoke, fire and other volumes in one scene: frame times, memory and
-image errors under one protocol, with reports, exported volumes and the papers' experiments.")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "compares and benchmarks methods for real-time volumetric effects")
+set(CPACK_PACKAGE_DESCRIPTION "Measures methods for real-time dust, smoke, fire and other volumes in the same scene: frame times,
+memory and image errors under one protocol. Includes reports, exported volumes and the experiments of papers.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
-# What is loaded or started while it runs; ImGui's loader opens libGL.so.1.
+# Libraries loaded and programs started at run time; ImGui's loader opens libGL.so.1.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
   "libegl1, libegl-mesa0, libgl1, libgl1-mesa-dri, libopengl0, fonts-dejavu-core, libjs-vega, librsvg2-bin, nodejs")
-# From g++ on: for methods from outside.
+# The packages from g++ on are for methods built outside this tree.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "ffmpeg, slurm-wlm, g++, cmake, libglm-dev, libfmt-dev, libtbb-dev, librandom123-dev")
 include(CPack)

@@ -34,7 +34,7 @@ bench::ExecutionOptions childExecution() {
 
 namespace {
 
-/// Runs at a time: one where a run's times are measured, else one for each core.
+/// Number of simultaneous runs: one if any run's times are measured, otherwise one per core.
 int simultaneousOf(const std::vector<bench::PlannedRun>& plan) {
     const bool isTimed = std::ranges::any_of(plan, [](const bench::PlannedRun& run) { return run.spec.timed; });
     return isTimed ? 1 : static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
@@ -80,14 +80,14 @@ int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::
     ProgressPrinter printer(execution.simultaneous == 1);
     const bench::ExecutionResult result = bench::execute(plan, repetitions, results, execution, printer);
     if (result.aborted) {
-        std::cerr << "aborted; the same command resumes" << std::endl;
+        std::cerr << "aborted; repeat the command to resume" << std::endl;
         return exitAborted;
     }
     if (plan.size() > 1)
         std::cerr << result.done << " done, " << result.skipped << " skipped, " << result.failed << " failed, "
                   << result.kept << " existing" << std::endl;
     else if (result.kept > 0)
-        std::cerr << "the result is there already; --force measures again" << std::endl;
+        std::cerr << "the result already exists; --force measures it again" << std::endl;
     if (result.outdated > 0)
         std::cerr << "outdated: " << result.outdated << " of the existing results; --redo-outdated re-runs them ("
                   << files::printable(result.whyOutdated) << ")" << std::endl;

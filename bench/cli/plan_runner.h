@@ -1,4 +1,4 @@
-// Shared by `run`, `suite` and `reproduce`: executes a plan with progress output, Ctrl-C handling and exit codes.
+// Executes a plan with progress output, Ctrl-C handling and exit codes, for `run`, `suite`, `reproduce` and others.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace dustbench::cli {
 
-/// The execution options that a user can set; the rest is filled in.
+/// The execution options that a user can set.
 struct PlanOptions {
     bool force = false;
     bool retryFailed = false;
@@ -21,14 +21,14 @@ struct PlanOptions {
     bench::ForecastByCell forecasts{};
 };
 
-/// Options to run each run in a process of this program, with the user's command as provenance; Ctrl-C ends it.
+/// Options that execute each run in a process of this program, record the user's command as provenance, and stop on
+/// Ctrl-C.
 [[nodiscard]] bench::ExecutionOptions childExecution();
 
-/// Throws InputError if OpenGL is not available, or not with the requested adapter. Call before creating a results
-/// folder.
+/// Throws InputError if OpenGL or the requested adapter is not available. Call before creating a results folder.
 void requireOpenGl();
 
-/// Starts a run of each cell still to do and fills in `options.forecasts`. Throws InputError.
+/// Starts a run of each remaining configuration and fills in `options.forecasts`. Throws InputError.
 [[nodiscard]] bench::PlanForecast forecastRuns(const std::vector<bench::PlannedRun>& plan,
                                                bench::ResultsFolder& results, PlanOptions& options);
 

@@ -11,7 +11,7 @@
 namespace dustbench::cli {
 namespace {
 
-/// Limits output to plain logs: a line now and then instead of one per frame.
+/// Limits output to plain logs to one line per interval instead of one per frame.
 constexpr std::chrono::seconds plainInterval{30};
 constexpr std::chrono::milliseconds barInterval{100};
 

@@ -10,7 +10,7 @@ namespace dustbench::cli {
 
 class ProgressPrinter : public bench::ExecutionListener {
  public:
-    /// `showsSteps`: of the run at work, the only one.
+    /// `showsSteps`: show the progress within a run, if only one runs at a time.
     explicit ProgressPrinter(bool showsSteps = true);
 
     void started(std::size_t position, std::size_t total, const bench::PlannedRun& run, int repetitions,
@@ -26,7 +26,7 @@ class ProgressPrinter : public bench::ExecutionListener {
 
     bool terminal_, showsSteps_;
     std::string last_;                                  ///< the run's last message
-    std::chrono::steady_clock::time_point phaseStart_;  ///< of what the run is at
+    std::chrono::steady_clock::time_point phaseStart_;  ///< start of the run's current phase
     std::chrono::steady_clock::time_point lastShown_;
 };
 

@@ -1,4 +1,4 @@
-// `dustbench recommend`: which method at which setting for a budget, from results.
+// `dustbench recommend`: recommends a method and its settings for a time budget, from results.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,17 +40,17 @@ std::vector<bench::Condition> conditionsOf(const RecommendOptions& options) {
 void drawChart(const RecommendOptions& options, const bench::Rankings& rankings, const bench::MeasuredRuns& runs,
                const bench::Budget& budget) {
     const std::size_t leftOut = bench::drawRecommendation(rankings, runs, budget, options.chart, "--chart");
-    std::cerr << "note: " << files::printable(options.chart)
-              << " is written; ringed and joined: the Pareto front, where "
-              << "intervals separate\n";
+    std::cerr << "note: " << files::printable(options.chart) << " written; ringed and joined: the Pareto front, where "
+              << "intervals do not overlap\n";
     if (leftOut > 0)
-        std::cerr << "note: " << leftOut << " settings whose pictures equal the reference are not in the chart\n";
+        std::cerr << "note: " << leftOut
+                  << " settings are not in the chart because their pictures are identical to the reference\n";
 }
 
-/// Says on stderr why there is nothing to rank.
+/// Prints on stderr why there is nothing to rank.
 int refuse(const bench::MeasuredRuns& runs, const bench::Rankings& rankings) {
     const std::string why = fmt::format(
-        "'{}': no setting has both {} and {}: `compare` measures both, suites with `baseline` and `metrics` too",
+        "'{}': no setting has both {} and {}; `compare` and suites with `baseline` and `metrics` measure both",
         runs.from, bench::timeColumn, rankings.quality.column);
     std::cerr << files::printable(why) << "\n" << leftOutText(runs) << incompleteText(rankings);
     return exitNotComparable;
@@ -81,25 +81,26 @@ int recommend(const RecommendOptions& options) {
 Command recommendCommand() {
     auto options = std::make_shared<RecommendOptions>();
     return {
-        "recommend", "Say which method at which setting fits a budget, from results",
+        "recommend", "Recommend a method and its settings for a time budget, from results",
         "One answer for each world (load, speed, scene, size …). A setting fits if the upper end of the interval of\n"
-        "its method_ms_median is within the budget. Of those the best picture leads; of all whose intervals of\n"
-        "quality overlap the leader's, the fastest is recommended.\n"
+        "its method_ms_median is within the budget. Of these, the one with the best picture leads. Of the leader and\n"
+        "all whose intervals of quality overlap its own, the fastest is recommended.\n"
         "Exit code 5: nothing fits in any world; 6: no setting has both a time and a quality.",
         [options](Arguments& arguments) {
-            arguments.required("--from", "DIR|FILE", "a folder of results, or a summary.csv", options->from);
+            arguments.required("--from", "DIR|FILE", "a results folder, or a summary.csv", options->from);
             arguments.required("--budget", "TIME",
-                               "what the method may add to a frame: 4ms; or 60fps: all of 1000/60 ms", options->budget);
-            arguments.text("--scene", "NAME", "answer for this scene alone", options->scene);
-            arguments.text("--light", "NAME", "answer for this light alone", options->light);
+                               "time that the method may add to a frame: 4ms; or 60fps for 1000/60 ms",
+                               options->budget);
+            arguments.text("--scene", "NAME", "answer for this scene only", options->scene);
+            arguments.text("--light", "NAME", "answer for this light only", options->light);
             arguments.texts("--where", "NAME=VALUE",
-                            "answer for these worlds or settings alone: particles=500, size=320x240, "
+                            "answer for these worlds or settings only: particles=500, size=320x240, "
                             "method=billboard; values may be lists and ranges; may be given several times",
                             options->where);
             arguments.text("--quality", "psnr_mask_db|ssim_mask|flip_mask",
-                           "what ranks pictures; default: psnr_mask_db", options->quality);
+                           "metric that ranks pictures; default: psnr_mask_db", options->quality);
             arguments.text("--chart", "FILE", "also draw quality against time: .svg, .png or .pdf", options->chart);
-            arguments.flag("--json", "an object with all settings and their metrics", options->json);
+            arguments.flag("--json", "print JSON: an object with all settings and their metrics", options->json);
         },
         [options] { return recommend(*options); }};
 }

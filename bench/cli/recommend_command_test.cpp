@@ -49,7 +49,7 @@ TEST_F(Recommend, SaysThatNothingCanBeRanked) {
     std::ofstream(folder_ / "summary.csv") << "run_id,status,method,scene,seed,method_ms_median\na,done,b,plain,1,2\n";
     const Called called = call("recommend --from " + (folder_ / "summary.csv").string() + " --budget 4ms");
     EXPECT_EQ(called.code, 6);
-    EXPECT_THAT(called.err, AllOf(HasSubstr("no setting has both"), HasSubstr("a time without psnr_mask_db (1)")));
+    EXPECT_THAT(called.err, AllOf(HasSubstr("no setting has both"), HasSubstr("a time but no psnr_mask_db (1)")));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ using bench::PictureMetric;
 using bench::Ranking;
 using bench::Recommendation;
 
-/// Intervals of 95 % need as many (median_interval.h).
+/// Minimum number of values for a 95 % interval (median_interval.h).
 constexpr std::size_t enoughValues = 6;
 constexpr std::size_t namedIncomplete = 6;
 
@@ -113,7 +113,7 @@ std::string valueText(const MeasuredSetting& setting, const PictureMetric& metri
     return fmt::format("{} ({} to {})", digitsOf(value.median), digitsOf(value.low), digitsOf(value.high));
 }
 
-/// What the answer costs in each flaw, beside those that might be taken instead.
+/// The flaws of the recommended setting compared with those of alternatives.
 std::string flawTable(const Ranking& ranking, const Recommendation& answer) {
     std::vector<std::size_t> shown{answer.recommended.value_or(answer.cheapest)};
     constexpr std::size_t mostOthers = 2;
@@ -142,8 +142,7 @@ std::string valueOf(const bench::SettingTexts& fields, std::string_view name) {
 /// `measured on: AMD EPYC, 2 cores, llvmpipe (LLVM 15.0.6, 256 bits); commit 30176ec67599`
 std::string machineText(const bench::MachineFacts& machine, const std::string& number) {
     if (machine.fields.empty())
-        return fmt::format(
-            "measured on: unknown{}, a summary.csv alone does not say it (machine.csv beside it would)\n", number);
+        return fmt::format("measured on{}: unknown, because there is no machine.csv next to summary.csv\n", number);
     std::vector<std::string> commits;
     commits.reserve(machine.commits.size());
     constexpr std::size_t shortCommit = 12;
@@ -154,18 +153,17 @@ std::string machineText(const bench::MachineFacts& machine, const std::string& n
         fmt::format("measured on{}: {}, {} cores, {}; commit {}\n", number, valueOf(machine.fields, "cpu"),
                     valueOf(machine.fields, "cores"), renderer, fmt::join(commits, ", "));
     if (gpu::isSoftwareRenderer(renderer))
-        text +=
-            "warning: software renderer: these times are of a processor; on a GPU other settings may fit and lead\n";
-    if (commits.size() > 1) text += "warning: times of several builds are taken together\n";
+        text += "warning: software renderer: the CPU drew the pictures; on a GPU, other settings may fit and lead\n";
+    if (commits.size() > 1) text += "warning: times of several builds are combined\n";
     return text;
 }
 
 std::string wayOfMeasuring(const Ranking& ranking) {
     return fmt::format(
-        "timed with sync={} threads={} over {} frames, judged over {} frames against {}",
+        "timed with sync={} threads={} over {} frames, compared over {} frames with {}",
         valueOf(ranking.conduct, "sync"), valueOf(ranking.conduct, "threads"), valueOf(ranking.conduct, "frames"),
         ranking.judgedFrames,
-        ranking.reference.empty() || ranking.reference == "exact" ? "the exact picture" : ranking.reference);
+        ranking.reference.empty() || ranking.reference == "exact" ? "the ground truth" : ranking.reference);
 }
 
 std::string rankingText(const Ranking& ranking, const Recommendation& answer, const bench::Rankings& rankings,
@@ -177,12 +175,12 @@ std::string rankingText(const Ranking& ranking, const Recommendation& answer, co
     text += "(" + wayOfMeasuring(ranking) + ")\n";
     const auto joined = std::ranges::count_if(ranking.settings, &MeasuredSetting::otherRuns);
     if (joined > 0)
-        text += fmt::format("(pictures of {} of {} settings are of other runs than their times)\n", joined,
+        text += fmt::format("(for {} of {} settings, pictures and times are from different runs)\n", joined,
                             ranking.settings.size());
     return text;
 }
 
-/// What weakens the intervals.
+/// Explains the intervals and warns of too few values.
 std::string statisticsText(const bench::Rankings& rankings) {
     bool hasFewRuns = false, hasFewSeeds = false, hasOneSeed = false;
     for (const Ranking& ranking : rankings.rankings)
@@ -192,9 +190,10 @@ std::string statisticsText(const bench::Rankings& rankings) {
             hasOneSeed |= setting.quality.values < 2;
         }
     std::string text =
-        "Values are medians over n repetitions or seeds; low and high bound the true median with 95 % or more.\n";
+        "Values are medians over n repetitions or seeds. The true median is between low and high with a probability of "
+        "95 % or more.\n";
     if (hasFewRuns || hasFewSeeds)
-        text += "warning: fewer than 6 values: low and high are their minimum and maximum, no 95 % interval\n";
+        text += "warning: fewer than 6 values: low and high are their minimum and maximum, not a 95 % interval\n";
     if (hasOneSeed) text += "warning: pictures of one seed have no interval: small differences may be chance\n";
     return text;
 }
@@ -205,11 +204,11 @@ std::string namesOfSettings(const std::vector<const bench::Incomplete*>& setting
     for (std::size_t index = 0; index < std::min(settings.size(), namedIncomplete); ++index)
         text += fmt::format("  {}: {}\n", settings[index]->world, settings[index]->label);
     if (settings.size() > namedIncomplete)
-        text += fmt::format("  … and {} more, all by --json\n", settings.size() - namedIncomplete);
+        text += fmt::format("  … and {} more, listed by --json\n", settings.size() - namedIncomplete);
     return text;
 }
 
-/// One line each, harmless for a terminal.
+/// Escapes control characters in each line.
 std::string printableLines(const std::string& text) {
     std::string safe;
     for (std::size_t begin = 0; begin < text.size();) {
@@ -224,7 +223,7 @@ std::string printableLines(const std::string& text) {
 
 std::string leftOutText(const bench::MeasuredRuns& runs) {
     std::string text;
-    if (runs.notDone > 0) text += fmt::format("left out: {} runs that are not done\n", runs.notDone);
+    if (runs.notDone > 0) text += fmt::format("left out: {} runs that did not complete\n", runs.notDone);
     for (const auto& [why, count] : runs.whyInvalid)
         text += fmt::format("left out: {} invalid run{}: {}\n", count, count == 1 ? "" : "s", why);
     return printableLines(text);
@@ -240,12 +239,11 @@ std::string incompleteText(const bench::Rankings& rankings) {
         neither += setting.hasTime || setting.hasQuality ? 0 : 1;
     }
     std::string text =
-        namesOfSettings(timed, fmt::format("not ranked, a time without {}", rankings.quality.column)) +
-        namesOfSettings(judged, fmt::format("not ranked, {} without a time of the method", rankings.quality.column)) +
-        namesOfSettings(both, "not ranked, judged over other frames or by another reference than the rest");
+        namesOfSettings(timed, fmt::format("not ranked: a time but no {}", rankings.quality.column)) +
+        namesOfSettings(judged, fmt::format("not ranked: {} but no time of the method", rankings.quality.column)) +
+        namesOfSettings(both, "not ranked: compared over other frames or with another reference than the rest");
     if (neither > 0)
-        text +=
-            fmt::format("not ranked, neither: {} settings, run without the null method and without metrics\n", neither);
+        text += fmt::format("not ranked: {} settings with neither, run without the null method and metrics\n", neither);
     return printableLines(text);
 }
 

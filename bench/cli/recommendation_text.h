@@ -1,4 +1,4 @@
-// A recommendation as text for a person: the answer of each world, its flaws, and what it rests on.
+// A recommendation as text: for each world the answer, its flaws, and the machines and runs that it is based on.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@
 
 namespace dustbench::cli {
 
-/// `recommendations` has one for each ranking, in their order.
+/// `recommendations` contains one for each ranking, in the same order.
 [[nodiscard]] std::string recommendationText(const bench::Budget& budget, const bench::MeasuredRuns& runs,
                                              const bench::Rankings& rankings,
                                              const std::vector<bench::Recommendation>& recommendations);
 
-/// How many runs are not used, and why; empty if all are.
+/// How many runs are left out, and why; empty if all are used.
 [[nodiscard]] std::string leftOutText(const bench::MeasuredRuns& runs);
 
 /// Settings that have a time or a quality but not both, and those that have neither; empty if there are none.

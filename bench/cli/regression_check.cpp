@@ -56,7 +56,7 @@ std::vector<Alert> alertsOf(const bench::FolderComparison& comparison, double pe
     return alerts;
 }
 
-/// Says which alerts stand and which do not; returns those that stand.
+/// Prints which alerts are confirmed and which are not; returns the confirmed ones.
 std::vector<Alert> confirmed(const bench::FolderComparison& comparison, const std::vector<Alert>& alerts,
                              const SecondLook& second) {
     std::vector<Alert> standing;
@@ -68,7 +68,7 @@ std::vector<Alert> confirmed(const bench::FolderComparison& comparison, const st
         const bool stands = !second.whyNot().empty() || second.confirms(alert);
         if (stands) standing.push_back(alert);
         std::cerr << fmt::format("{}: {}: {} {}{}\n", stands ? "regression" : "not confirmed", alert.column,
-                                 alert.cell ? labelOf(*alert.cell, comparison.axes) : "all cells together",
+                                 alert.cell ? labelOf(*alert.cell, comparison.axes) : "the mean of all configurations",
                                  takes(*first), again == nullptr ? "" : "; measured again, it " + takes(*again));
     }
     return standing;
@@ -92,7 +92,7 @@ void writeMarkdown(const RegressionOptions& options, const bench::FolderComparis
     std::cout << options.markdown << "\n";
 }
 
-/// Measures alerts again; returns those that stand, or nothing if it was aborted.
+/// Measures alerts again; returns the confirmed ones, or nothing if aborted.
 std::optional<std::vector<Alert>> lookAgain(const RegressionOptions& options, const bench::ResultsSide& a,
                                             const bench::FolderComparison& comparison,
                                             const std::vector<Alert>& alerts) {
@@ -106,13 +106,13 @@ std::optional<std::vector<Alert>> lookAgain(const RegressionOptions& options, co
     return confirmed(comparison, alerts, second);
 }
 
-/// A gate that holds results against themselves always passes.
+/// Comparing results with themselves would always pass.
 void requireTwoFolders(const std::string& a, const std::string& b) {
     std::error_code none;
     if (std::filesystem::equivalent(a, b, none) ||
         std::filesystem::equivalent(std::filesystem::path(a) / "runs", std::filesystem::path(b) / "runs", none))
         throw InputError(
-            fmt::format("compare: got '{}' and '{}', which are the same folder twice, allowed: two", a, b));
+            fmt::format("compare: '{}' and '{}' are the same folder, expected two different folders", a, b));
 }
 
 }  // namespace
@@ -132,8 +132,8 @@ int checkRegression(const RegressionOptions& options) {
     if (!comparison.obstacles.empty()) return exitNotComparable;
 
     std::cout << fmt::format(
-        "B = {} against A = {}: ratio of their times, 95 % interval over runs that were not measured by turns\n",
-        options.b, options.a);
+        "B = {} against A = {}: ratio of times, 95 % interval over runs that were not interleaved\n", options.b,
+        options.a);
     bench::TextRows table = bench::tabulate(comparison);
     table.rows.insert(table.rows.begin(), std::move(table.header));
     std::cout << textTable(table.rows);
@@ -149,10 +149,11 @@ int checkRegression(const RegressionOptions& options) {
     if (!options.failPercent) return exitOk;
     sayBroken(comparison);
     if (!regressions.empty() || !comparison.broken.empty()) return exitRegression;
-    // A check that cannot fail must not look as if it passed.
+    // If no regression can be detected, the check must not pass.
     if (std::ranges::none_of(comparison.judged, [](const auto& judged) { return judged.result.hasEnough(); })) {
-        std::cerr << fmt::format("not comparable: no cell has {} runs with times in both, so no regression can show\n",
-                                 bench::minimumTimes);
+        std::cerr << fmt::format(
+            "not comparable: no configuration has {} timed runs in both folders, so no regression can be detected\n",
+            bench::minimumTimes);
         return exitNotComparable;
     }
     return exitOk;

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 class CompareFolders : public Dustbench {
  protected:
-    /// Six runs of two cells; `change` is applied to each record before it is written.
+    /// Six runs of each of two configurations. `change` is applied to each record before it is written.
     template <typename Change>
     void write(const std::string& name, double factor, const Change& change) const {
         for (const int particles : {100, 900})
@@ -86,7 +86,7 @@ TEST_F(CompareFolders, AnAlertIsMeasuredAgainAndStandsOnlyIfItAlertsAgain) {
            "[parameters]\npreroll = 0.1\nparticles = [10, 20]\n";
     ASSERT_EQ(call(fmt::format("suite '{0}/small.toml' --out '{0}/a'", folder_.string())).code, 0);
     fs::copy(folder_ / "a", folder_ / "b", fs::copy_options::recursive);
-    /// Frame times of all runs as if they had taken so many ms.
+    /// Replaces the frame times of all runs by this many ms.
     const auto pretend = [this](const std::string& name, double ms) {
         for (const fs::path& run : runs((folder_ / name).string())) {
             std::stringstream text;
@@ -112,7 +112,7 @@ TEST_F(CompareFolders, AnAlertIsMeasuredAgainAndStandsOnlyIfItAlertsAgain) {
         compare("b", fmt::format("--fail-on-regression 2000 --markdown '{}/told.txt'", folder_.string()));
     EXPECT_EQ(real.code, 5) << real.err;
     EXPECT_THAT(real.err, AllOf(HasSubstr("regression: frame_ms_median: null_method particles=10 takes "),
-                                HasSubstr("regression: frame_ms_median: all cells together takes "),
+                                HasSubstr("regression: frame_ms_median: the mean of all configurations takes "),
                                 HasSubstr("measured again, it takes "), testing::Not(HasSubstr("not confirmed"))));
     markdown.str("");
     markdown << std::ifstream(folder_ / "told.txt").rdbuf();
@@ -128,7 +128,7 @@ TEST_F(CompareFolders, AFolderAgainstItselfPassesNoGate) {
     for (const char* same : {"a", "a/../a", "link", "within"}) {
         const Called called = compare(same);
         EXPECT_EQ(called.code, 3) << same;
-        EXPECT_THAT(called.err, HasSubstr("which are the same folder twice"));
+        EXPECT_THAT(called.err, HasSubstr("are the same folder, expected"));
         EXPECT_EQ(called.out, "");
     }
     fs::copy(folder_ / "a", folder_ / "copy", fs::copy_options::recursive);
@@ -176,15 +176,15 @@ TEST_F(CompareFolders, AGateThatCouldNotCloseIsNotPassed) {
     EXPECT_EQ(compare("few", "").code, 0);
     const Called called = compare("few");
     EXPECT_EQ(called.code, 6);
-    EXPECT_THAT(called.err, HasSubstr("no cell has 6 runs"));
-    // A new failure is a regression, however few runs there are.
+    EXPECT_THAT(called.err, HasSubstr("no configuration has 6 timed runs"));
+    // A new failure is a regression even with few runs.
     write("fails", 1, [](bench::RunRecord& record) {
         if (record.spec.repetition > 1) return;
         record.status = bench::RunStatus::timeout;
-        record.reason = "no end after 2 s";
+        record.reason = "not finished after 2 s";
     });
     EXPECT_EQ(compare("fails").code, 5);
-    EXPECT_THAT(compare("fails").err, HasSubstr("in B timed out: no end after 2 s"));
+    EXPECT_THAT(compare("fails").err, HasSubstr("in B timed out: not finished after 2 s"));
 }
 
 TEST_F(CompareFolders, WritesACsvAndTakesFoldersAsTheyAre) {
@@ -206,7 +206,7 @@ TEST_F(CompareFolders, AlteredResultsAreRefusedAndThoseThatCannotTellAreSaid) {
     write("older", 1, [](bench::RunRecord& record) { record.outputs.reset(); });
     const Called older = compare("older");
     EXPECT_EQ(older.code, 0);
-    EXPECT_THAT(older.err, AllOf(HasSubstr("older/': 12 of 12 runs"), HasSubstr("whether these were altered")));
+    EXPECT_THAT(older.err, AllOf(HasSubstr("older/': 12 of 12 runs"), HasSubstr("cannot be detected")));
     EXPECT_EQ(std::ranges::count(older.err, '\n'), 1) << older.err;
     write("cut", 1, [](bench::RunRecord& record) { record.outputs = {{"frames.csv", 1, ""}}; });
     const Called cut = compare("cut");
@@ -219,13 +219,14 @@ TEST_F(CompareFolders, BadInputIsOneLineAndExitCodeThree) {
     write("cut", 1);
     const fs::path cut = runs((folder_ / "cut").string()).front() / "run.json";
     std::ofstream(cut) << "{\"run_id\": ";
-    for (const auto& [more, word] : {std::pair("cut/", "run.json: is no run.json"), {"nowhere/", "is no folder of"}}) {
+    for (const auto& [more, word] :
+         {std::pair("cut/", "run.json: is not a run.json"), {"nowhere/", "is not a results folder"}}) {
         const Called called = call(fmt::format("compare '{0}/a/' '{0}/{1}'", folder_.string(), more));
         EXPECT_EQ(called.code, 3);
         EXPECT_THAT(called.err, HasSubstr(word));
         EXPECT_EQ(std::ranges::count(called.err, '\n'), 1) << called.err;
     }
-    for (const auto& [more, word] : {std::pair("--frames 5", "--frames: got it for result folders"),
+    for (const auto& [more, word] : {std::pair("--frames 5", "--frames: applies only to methods"),
                                      {"--columns frame_ms", "did you mean 'frame_ms_"},
                                      {"--columns fps_avg,fps_avg", "'fps_avg' twice"},
                                      {"--fail-on-regression much", "'much'"},
@@ -234,9 +235,9 @@ TEST_F(CompareFolders, BadInputIsOneLineAndExitCodeThree) {
         EXPECT_EQ(called.code, 3) << more;
         EXPECT_THAT(called.err, HasSubstr(word));
     }
-    EXPECT_THAT(call("compare ./a billboard").err, HasSubstr("'billboard' beside a result folder"));
-    EXPECT_THAT(call("compare ./a ./b ./c").err, HasSubstr("got 3 result folders"));
-    EXPECT_THAT(call("compare billboard billboard:soft=true --columns fps_avg").err, HasSubstr("got it for methods"));
+    EXPECT_THAT(call("compare ./a billboard").err, HasSubstr("'billboard' together with a results folder"));
+    EXPECT_THAT(call("compare ./a ./b ./c").err, HasSubstr("got 3 results folders"));
+    EXPECT_THAT(call("compare billboard billboard:soft=true --columns fps_avg").err, HasSubstr("not to methods"));
 }
 
 }  // namespace

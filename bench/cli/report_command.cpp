@@ -1,5 +1,5 @@
-// `dustbench report`: the page of a results folder, its tables for a terminal, or one of its charts as a file; or a
-// page of several folders, each of another machine.
+// `dustbench report`: writes the page of a results folder, its tables as text, or one of its charts; or a page that
+// compares the results of several machines.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -35,13 +35,13 @@ void refuseOtherOptions(const ReportOptions& options) {
     const bool several = options.folders.size() > 1;
     for (const std::string& name : options.given)
         if ((several ? ofOne : ofSeveral).contains(name))
-            throw InputError(fmt::format("{}: got it for {}, allowed: for {}", name,
-                                         several ? "several folders" : "one folder",
-                                         several ? "one folder" : "several folders, one for each machine"));
+            throw InputError(fmt::format("{}: applies only to {}, not to {}", name,
+                                         several ? "one folder" : "several folders, one for each machine",
+                                         several ? "several folders" : "one folder"));
     if (options.text && !options.out.empty()) throw InputError("--text and --out: got both, allowed: one of them");
 }
 
-/// Those that `run` and `compare` left, and those of controls.
+/// Table of runs that belong to no suite: those of `run` and `compare`, and of controls.
 std::string runsOfNoSuite(const bench::RunGroup& group) {
     std::vector<bench::MeasuredCell> cells;
     for (const bench::ReportCell& cell : group.cells) {
@@ -51,7 +51,7 @@ std::string runsOfNoSuite(const bench::RunGroup& group) {
     return runsReport(group.title, cells);
 }
 
-/// The tables printed by `suite` and `reproduce`, for all existing runs.
+/// Prints the tables of `suite` and `reproduce` for all existing runs.
 void printTables(const bench::ReportData& data) {
     for (const bench::RunGroup& group : data.groups) {
         if (group.suite.empty()) {
@@ -76,7 +76,7 @@ int reportMachines(const ReportOptions& options) {
         for (const std::string& sentence : remarks.notes) std::cerr << "note: " << files::printable(sentence) << "\n";
         for (const std::string& sentence : remarks.apart)
             std::cerr << "not comparable: " << files::printable(sentence) << "\n";
-        std::cerr << "not comparable: no cell is done on two machines\n";
+        std::cerr << "not comparable: no configuration was measured on two machines\n";
         return exitNotComparable;
     }
     if (options.text) {
@@ -86,9 +86,10 @@ int reportMachines(const ReportOptions& options) {
     for (const auto* sentences : {&remarks.apart, &remarks.programs, &remarks.notes})
         for (const std::string& sentence : *sentences) std::cerr << "note: " << files::printable(sentence) << "\n";
     if (!remarks.missing.empty())
-        std::cerr << fmt::format("note: {} not done on every machine: see 'Missing cells' of the page\n",
-                                 remarks.missing.size() == 1 ? std::string("1 cell is")
-                                                             : fmt::format("{} cells are", remarks.missing.size()));
+        std::cerr << fmt::format("note: {} not measured on every machine, see the list on the page\n",
+                                 remarks.missing.size() == 1
+                                     ? std::string("1 configuration was")
+                                     : fmt::format("{} configurations were", remarks.missing.size()));
     std::cout << bench::writeMachinesPage(options.out.empty() ? "out/machines" : options.out, comparison).string()
               << "\n";
     return exitOk;
@@ -99,7 +100,7 @@ int report(const ReportOptions& options) {
     if (options.folders.size() > 1) return reportMachines(options);
     const std::string& folder = options.folders.front();
     if (!options.format.empty() && options.chart.empty())
-        throw InputError("--format: got '" + options.format + "' without --chart, which it belongs to");
+        throw InputError("--format: got '" + options.format + "' without --chart, which it requires");
     if (options.text && !options.chart.empty()) throw InputError("--text and --chart: got both, allowed: one of them");
     const bool needsPictures = !options.text && options.chart.empty();
     const bench::ReportData data =
@@ -107,8 +108,8 @@ int report(const ReportOptions& options) {
     for (const std::string& problem : data.problems) std::cerr << "note: " << files::printable(problem) << "\n";
     if (data.runs.empty())
         throw InputError(
-            fmt::format("'{}': holds no run that can be read, expected a folder that `suite`, `run`, "
-                        "`compare` or `reproduce` wrote",
+            fmt::format("'{}': contains no readable run, expected a results folder written by `suite`, `run`, "
+                        "`compare` or `reproduce`",
                         folder));
     if (options.text) {
         printTables(data);
@@ -128,31 +129,31 @@ int report(const ReportOptions& options) {
 
 Command reportCommand() {
     auto options = std::make_shared<ReportOptions>();
-    return {"report", "Write the report of a result folder, or of several machines' side by side",
-            "The report is DIR/index.html, one file; a chart is DIR/charts/ID.svg. Without a run in DIR nothing is "
-            "written. A summary.csv alone is enough, with a machine.csv for the captions.\n"
-            "Several folders: one page of ratios within each machine, hardware, claims, and what cannot be compared.\n"
-            "Exit code 6: no cell is the same on two machines; nothing is written.",
+    return {"report", "Write the report of a results folder, or one that compares several machines",
+            "The report is a single file, DIR/index.html; a chart is DIR/charts/ID.svg. Nothing is written if DIR "
+            "contains no run. A summary.csv alone is enough, with a machine.csv for the captions.\n"
+            "Several folders: one page with ratios within each machine, hardware, claims, and remarks on\n"
+            "comparability. Exit code 6: no configuration was measured on two machines; nothing is written.",
             [options](Arguments& arguments) {
                 arguments.requiredTexts("dir", "DIR",
-                                        "a folder that `suite`, `run`, `compare` or `reproduce` wrote; or several, "
-                                        "one for each machine",
+                                        "results folder written by `suite`, `run`, `compare` or `reproduce`; or "
+                                        "several, one for each machine",
                                         options->folders);
                 arguments.flag("--text", "print the tables instead of writing the report", options->text);
                 arguments.text("--out", "FILE|DIR",
-                               "a file that ends in .html (of a chart: .svg, .png or .pdf), or a folder; default: DIR, "
-                               "DIR/charts; of several folders: out/machines",
+                               "a file that ends in .html (for a chart: .svg, .png or .pdf), or a folder; default: DIR "
+                               "or DIR/charts; for several folders: out/machines",
                                options->out);
                 arguments.texts("--label", "NAME",
-                                "of several folders: a name for each, in their order; default: the "
+                                "for several folders: a name for each, in their order; default: the "
                                 "folders' names",
                                 options->labels);
                 arguments.text("--chart", "ID",
-                               "one chart alone: a suite's id or its end (fig7), -stages or -quality "
-                               "behind it, or frames; all: the chart of each suite",
+                               "write only one chart: a suite's id or its end (fig7), optionally with -stages or "
+                               "-quality appended, or frames; all: the chart of each suite",
                                options->chart);
-                arguments.text("--format", "svg|png|pdf", "of the chart; default: svg", options->format);
-                arguments.number("--pictures", "megabytes of pictures in the report; further ones are linked",
+                arguments.text("--format", "svg|png|pdf", "format of the chart; default: svg", options->format);
+                arguments.number("--pictures", "megabytes of pictures in the report; any beyond that are linked",
                                  options->pictureMegabytes, 0, 1000);
                 arguments.givenOptions(options->given);
             },

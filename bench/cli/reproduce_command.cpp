@@ -1,4 +1,4 @@
-// `dustbench reproduce`: runs the suites of a paper, prints the results, and writes its page.
+// `dustbench reproduce`: runs the suites and experiments of a paper, prints the results and writes its page.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,16 +47,16 @@ struct PaperWork {
     bench::Paper paper;
     std::unique_ptr<bench::ResultsFolder> results;
     std::vector<SuiteWork> suites;
-    std::size_t published = 0;  ///< numbers of the paper on its charts
-    bool quick = false;         ///< short forms, of experiments too
+    std::size_t published = 0;  ///< number of published points on the paper's charts
+    bool quick = false;         ///< reduced suites and experiments
 };
 
-/// Several papers of one call get folders side by side in this one.
+/// The folder that contains one folder per paper, if a call reproduces several.
 std::filesystem::path folderOfAll(const ReproduceOptions& options) {
     return options.out.empty() ? std::filesystem::path("reports/out") : std::filesystem::path(options.out);
 }
 
-/// Reads all input files, so that an error in the last paper is found before the first run.
+/// Reads all input files first, so that an error in the last paper is found before the first run.
 std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
     std::vector<PaperWork> work;
     for (const std::string& id : options.paper.empty() ? bench::listPapers() : std::vector{options.paper}) {
@@ -106,7 +106,7 @@ void printWork(const std::vector<PaperWork>& work) {
 
 /// Prints how long the remaining runs will take; false if interrupted.
 bool sayHowLong(std::vector<PaperWork>& work) {
-    std::cerr << "estimate: starting one run of each kind" << std::endl;
+    std::cerr << "estimate: starting one run of each configuration" << std::endl;
     std::size_t runs = 0;
     double seconds = 0;
     for (PaperWork& paper : work)
@@ -121,13 +121,13 @@ bool sayHowLong(std::vector<PaperWork>& work) {
             runs += forecast.runs;
             seconds += forecast.seconds;
         }
-    std::cerr << fmt::format("estimate: {} for {} runs; without the papers' small experiments that follow",
+    std::cerr << fmt::format("estimate: {} for {} runs, excluding the papers' experiments that follow",
                              bench::durationText(seconds), runs)
               << std::endl;
     return true;
 }
 
-/// What experiments left out, one line each.
+/// The quantities that experiments could not measure, one line each.
 std::string notMeasured(const std::vector<bench::StoredFinding>& findings) {
     std::string lines;
     for (const bench::StoredFinding& finding : findings)
@@ -136,7 +136,7 @@ std::string notMeasured(const std::vector<bench::StoredFinding>& findings) {
     return lines.empty() ? lines : lines + "\n";
 }
 
-/// What the paper's small experiments find; they take seconds in the quick form, minutes in the full one.
+/// Runs the paper's experiments. They take seconds with --quick, otherwise minutes.
 std::vector<bench::StoredFinding> findingsOf(const PaperWork& work) {
     const std::vector<std::string>& experiments = work.paper.experiments;
     const EndsWhenInterrupted untilTheyEnd;
@@ -148,7 +148,7 @@ std::vector<bench::StoredFinding> findingsOf(const PaperWork& work) {
     return findings;
 }
 
-/// Runs, tables, verdicts and the page of one paper, whose line is added to `index`.
+/// Runs a paper's suites and experiments, prints tables and verdicts, writes its page and adds its line to `index`.
 int reproducePaper(const PaperWork& work, std::vector<bench::PaperLine>& index) {
     const bench::Paper& paper = work.paper;
     bench::ResultsFolder& results = *work.results;
@@ -207,26 +207,25 @@ int reproduce(const ReproduceOptions& options) {
 
 Command reproduceCommand() {
     auto options = std::make_shared<ReproduceOptions>();
-    return {"reproduce", "Run the experiments of a paper and print the results", "Existing results are kept.",
-            [options](Arguments& arguments) {
-                arguments.text("--paper", "ID", "carr2006 …: a folder of data/papers; default: all of them",
-                               options->paper);
-                arguments.flag("--quick", "short forms of suites and experiments: minutes instead of hours",
-                               options->quick);
-                arguments.flag("--full",
-                               "the whole suites (as without --quick); estimates first how long they will take",
-                               options->full);
-                arguments.flag("--controls",
-                               "also run what only the claims' controls need: data with a known verdict, by which a "
-                               "rule that cannot fail is noticed",
-                               options->controls);
-                arguments.flag("--dry-run",
-                               "check all files of the papers and print the suites with their numbers of runs; measure "
-                               "nothing",
-                               options->dryRun);
-                arguments.text("--out", "DIR", "folder for the results; default: reports/out/<paper>", options->out);
-            },
-            [options] { return reproduce(*options); }};
+    return {
+        "reproduce", "Run the experiments of a paper and print the results", "Existing results are kept.",
+        [options](Arguments& arguments) {
+            arguments.text("--paper", "ID", "a folder of data/papers, such as carr2006; default: all papers",
+                           options->paper);
+            arguments.flag("--quick", "run reduced suites and experiments: minutes instead of hours", options->quick);
+            arguments.flag("--full", "run the complete suites, as without --quick; first estimates how long they take",
+                           options->full);
+            arguments.flag("--controls",
+                           "also run the suites of the claims' controls: data with a known verdict, which detect "
+                           "a rule that cannot fail",
+                           options->controls);
+            arguments.flag("--dry-run",
+                           "check all files of the papers and print each suite with its number of runs; measure "
+                           "nothing",
+                           options->dryRun);
+            arguments.text("--out", "DIR", "folder for the results; default: reports/out/<paper>", options->out);
+        },
+        [options] { return reproduce(*options); }};
 }
 
 }  // namespace dustbench::cli

@@ -43,7 +43,7 @@ bench::RunSpec toSpec(const RunOptions& options) {
     return spec;
 }
 
-/// The cost of each part of a frame: the median of every stage and its share of the median frame.
+/// Prints the median time of every stage and its share of the median frame time.
 void printRun(const bench::PlannedRun& run, const bench::ResultsFolder& results) {
     const std::string id = bench::runId(run.spec);
     const bench::StoredRun& stored = results.runs().at(id);
@@ -105,8 +105,8 @@ Command runCommand() {
     return {"run", "Measure one method in one scene",
             "Parameters with defaults and allowed values: `dustbench list methods`.\n"
             "A list `a,b,c` or a range `a:b:step` (including b) makes one run per value.\n"
-            "A result that is there already is kept, unless it failed, or another build measured it, or one of its\n"
-            "input files has changed.",
+            "An existing result is kept unless it failed, another build measured it, or one of its input files has\n"
+            "changed.",
             [options](Arguments& arguments) {
                 options->world.declare(arguments);
                 arguments.integer("--frames", "frames to record", options->frames, 1, 10'000'000);
@@ -117,15 +117,15 @@ Command runCommand() {
                                   options->images, 0);
                 arguments.text(
                     "--video", "FILE",
-                    "a film of the run (.mp4, .mkv, .mov, .webm) by ffmpeg, after it; saves the pictures too",
+                    "after the run, make a film of it with ffmpeg (.mp4, .mkv, .mov, .webm); also saves the pictures",
                     options->films.video);
-                arguments.text("--gif", "FILE", "the same as GIF", options->films.gif);
+                arguments.text("--gif", "FILE", "the same as a GIF", options->films.gif);
                 options->volumes.declareOptional(arguments);
                 arguments.flag("--metrics",
-                               "afterwards, compare five frames and the last 31 with exact pictures "
+                               "after the run, compare five frames and the last 31 with reference images "
                                "(reports/METRICS.md)",
                                options->metrics);
-                arguments.flag("--force", "measure again what is there already", options->force);
+                arguments.flag("--force", "measure again if the result exists", options->force);
                 arguments.required("--out", "DIR", "folder for the results; created if missing", options->out);
             },
             [options] { return performRuns(*options); }};

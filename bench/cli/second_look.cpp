@@ -10,7 +10,7 @@
 namespace dustbench::cli {
 namespace {
 
-/// The cells to measure: those that alert, or all where their mean does.
+/// The configurations to measure: those that alert, or all of them if their mean alerts.
 std::vector<const bench::FolderCell*> cellsOf(const bench::FolderComparison& first, const std::vector<Alert>& alerts) {
     const bool ofAll = std::ranges::any_of(alerts, [](const Alert& alert) { return alert.cell == nullptr; });
     std::vector<const bench::FolderCell*> cells;
@@ -21,7 +21,7 @@ std::vector<const bench::FolderCell*> cellsOf(const bench::FolderComparison& fir
     return cells;
 }
 
-/// Repetition by repetition over all cells, as a suite does.
+/// Plans one repetition of all configurations after the other, as a suite does.
 std::vector<bench::PlannedRun> planOf(const std::vector<const bench::FolderCell*>& cells, int& repetitions) {
     std::vector<bench::PlannedRun> plan;
     repetitions = 0;
@@ -48,7 +48,7 @@ SecondLook::SecondLook(const bench::ResultsSide& a, const bench::FolderCompariso
             if (whyNot_.empty()) whyNot_ = freshness.whyOutdated(*run);
         for (const bench::StoredRun* run : cell->a.done) a_.runs.emplace(run->runId, *run);
     }
-    if (cells.empty()) whyNot_ = "no cell is done in both";
+    if (cells.empty()) whyNot_ = "no configuration is complete in both folders";
     if (!whyNot_.empty()) return;
 
     int repetitions = 0;

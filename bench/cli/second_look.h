@@ -1,4 +1,4 @@
-// Measures again what alerts in a comparison of two result folders, so that chance alone does not fail it.
+// Measures suspected regressions of a folder comparison again, so that chance alone does not fail it.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace dustbench::cli {
 
-/// A comparison that alerts: a column of a cell, or of all cells together (null).
+/// A suspected regression: a column of one configuration, or of all together (null).
 struct Alert {
     const bench::FolderCell* cell;
     std::string column;
@@ -18,18 +18,18 @@ struct Alert {
 
 class SecondLook {
  public:
-    /// Measures the cells of `alerts` once more with this program, each as often as it was in B, and compares them with
-    /// A. The runs are written to `folder`. Where B is of another build, or its inputs have changed, nothing is
-    /// measured (whyNot).
+    /// Measures the configurations of `alerts` again with this program, each as often as in B, and compares them with
+    /// A. The runs are written to `folder`. Measures nothing if B is from another build or its inputs have changed
+    /// (whyNot).
     SecondLook(const bench::ResultsSide& a, const bench::FolderComparison& first, const std::vector<Alert>& alerts,
                double percent, const std::filesystem::path& folder);
 
     /// Empty if it was measured.
     [[nodiscard]] const std::string& whyNot() const { return whyNot_; }
     [[nodiscard]] bool aborted() const { return aborted_; }
-    /// What the alert became: null if it could not be judged again.
+    /// The alert's result in the second measurement; null if there is none.
     [[nodiscard]] const bench::JudgedCell* judged(const Alert& alert) const;
-    /// True if it alerts again, or could not be judged again.
+    /// True if the second measurement alerts again or could not decide.
     [[nodiscard]] bool confirms(const Alert& alert) const;
 
  private:

@@ -79,7 +79,7 @@ TEST_F(Shards, AMergeThatIsRefusedLeavesNoFolder) {
     const std::string merge = fmt::format("merge --out '{}' '{}'", (folder_ / "m").string(), linked.string());
     EXPECT_EQ(call(merge).code, 3);
     EXPECT_FALSE(fs::exists(folder_ / "m"));
-    // What was there stays.
+    // Existing results stay.
     fs::create_directories(folder_ / "m");
     EXPECT_EQ(call(merge).code, 3);
     EXPECT_TRUE(fs::is_empty(folder_ / "m"));

@@ -21,7 +21,8 @@ bench::ParameterLists parseParameters(const std::vector<std::string>& texts) {
         if (equals == 0 || equals == std::string::npos) throw InputError("-P: got '" + text + "', expected name=value");
         const std::string name = text.substr(0, equals);
         if (std::ranges::find(lists, name, &bench::ParameterLists::value_type::first) != lists.end())
-            throw InputError("-P: parameter " + name + " is given twice; several values are a list: " + name + "=a,b");
+            throw InputError("-P: parameter " + name + " is given twice; for several values, use a list: " + name +
+                             "=a,b");
         lists.emplace_back(name, bench::expandValues(name, text.substr(equals + 1)));
     }
     return lists;

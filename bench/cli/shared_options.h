@@ -1,4 +1,4 @@
-// Help texts and checks shared by several subcommands.
+// Parsing and checks that several subcommands share.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace dustbench::cli {
 /// `name=value` of every -P option, in order; values may be lists and ranges. Throws InputError.
 [[nodiscard]] bench::ParameterLists parseParameters(const std::vector<std::string>& texts);
 
-/// Loads every scene and drive of the plan once and looks up the files that parameters name, so that errors in them
+/// Loads every scene and drive of the plan once and looks up the files that parameters refer to, so that their errors
 /// are reported before the first run. Throws InputError.
 void checkWorlds(const std::vector<bench::PlannedRun>& plan);
 

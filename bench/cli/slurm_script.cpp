@@ -14,8 +14,8 @@
 namespace dustbench::cli {
 namespace {
 
-/// Overhead of starting a run, and of a shard. Generous: a task that Slurm kills loses a run, one that ends early loses
-/// nothing.
+/// Overhead of starting a run, and of a shard. The values are generous, because a task that Slurm kills loses a run,
+/// while one that ends early costs nothing.
 constexpr double secondsAroundRun = 15, secondsAroundShard = 120;
 
 /// Letters, digits and a few characters without a special meaning for Slurm, which interprets % in file names.

@@ -1,4 +1,4 @@
-// Generates a Slurm array job for a suite: one task per shard, then a job that merges.
+// Generates a Slurm array job for a suite: one task per shard, followed by a job that merges the results.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct SlurmJob {
 /// A bash script. `sbatch` accepts it as an array job; run directly, it submits itself and the merge job.
 [[nodiscard]] std::string slurmScript(const SlurmJob& job);
 
-/// The words of a `dustbench` command without some options and their values.
+/// The arguments of a `dustbench` command without some options and their values.
 [[nodiscard]] std::vector<std::string> withoutOptions(const std::vector<std::string>& words,
                                                       const std::vector<std::string>& options);
 

@@ -1,4 +1,4 @@
-// `dustbench suite`: runs a suite, or continues it.
+// `dustbench suite`: runs or resumes a suite.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,11 +33,11 @@ struct SuiteOptions {
     VolumeOptions volumes{"--volumes"};
 };
 
-/// Prints the Slurm script of the suite; nothing is run or written.
+/// Prints the Slurm script of the suite. Runs and writes nothing.
 int printSlurmScript(const SuiteOptions& options, const bench::Suite& suite, double timeoutSeconds,
                      double cooldownSeconds) {
     if (!options.shard.empty() || options.dryRun || options.estimate)
-        throw InputError(fmt::format("--slurm: got it with {}, allowed: one of them",
+        throw InputError(fmt::format("--slurm: cannot be combined with {}",
                                      options.dryRun ? "--dry-run" : (options.estimate ? "--estimate" : "--shard")));
     SlurmJob job;
     job.name = suite.id;
@@ -93,7 +93,7 @@ int runSuite(const SuiteOptions& options) {
     if (options.dryRun || options.estimate) {
         const auto toDo = printPlan(plan, suite.repetitions, options.out);
         if (options.dryRun && !options.estimate && !toDo.empty())
-            std::cerr << "--estimate starts one run of each kind and tells how long all of them take\n";
+            std::cerr << "--estimate starts one run of each configuration to estimate how long all runs take\n";
         return options.estimate ? printEstimate(toDo, planOptions) : exitOk;
     }
     checkWorlds(plan);
@@ -110,35 +110,36 @@ int runSuite(const SuiteOptions& options) {
 
 Command suiteCommand() {
     auto options = std::make_shared<SuiteOptions>();
-    return {"suite", "Work through a list of runs, or go on where it was stopped",
-            "Runs whose results are there already are left alone; those that are outdated are named.",
+    return {"suite", "Run or resume a suite: a list of configurations and repetitions",
+            "Existing results are kept. Outdated ones are reported.",
             [options](Arguments& arguments) {
                 arguments.required("suite", "", "one of `dustbench list suites`, or a .toml file", options->suite);
-                arguments.required("--out", "DIR", "folder for the results; made where it is missing", options->out);
-                arguments.flag("--quick", "the suite's short form", options->quick);
-                arguments.integer("--repetitions", "of every run, each in a new process; 0: as the suite says",
+                arguments.required("--out", "DIR", "folder for the results; created if missing", options->out);
+                arguments.flag("--quick", "run the suite's reduced set of configurations", options->quick);
+                arguments.integer("--repetitions",
+                                  "runs of every configuration, each in a new process; 0: as the suite specifies",
                                   options->repetitions, 0, files::limits::repetitions);
                 arguments.flag("--force", "re-run existing results", options->force);
-                arguments.flag("--retry-failed", "re-run what failed or timed out", options->retryFailed);
+                arguments.flag("--retry-failed", "re-run runs that failed or timed out", options->retryFailed);
                 arguments.flag("--redo-outdated",
                                "re-run results of another build, or whose input files have changed since",
                                options->redoOutdated);
                 arguments.text("--order", "interleaved|batch",
-                               "repetitions in shuffled rounds over all runs, or all repetitions of a run together; "
-                               "default: as the suite says",
+                               "repetitions in shuffled rounds over all configurations, or all repetitions of a "
+                               "configuration together; default: as the suite specifies",
                                options->order);
-                arguments.number("--timeout", "time limit of one run in seconds; 0: as the suite says",
+                arguments.number("--timeout", "time limit of one run in seconds; 0: as the suite specifies",
                                  options->timeoutSeconds, 0, 1e6);
-                arguments.number("--cooldown", "seconds of rest between two runs; below 0: as the suite says",
+                arguments.number("--cooldown", "seconds of rest between two runs; below 0: as the suite specifies",
                                  options->cooldownSeconds, -1, 3600);
                 options->volumes.declareOptional(arguments);
                 arguments.flag("--dry-run", "print the list of runs and their state; run nothing", options->dryRun);
                 arguments.flag("--estimate",
-                               "print the list, then start one run of each kind to tell how long all of them take; "
-                               "nothing is kept",
+                               "print the list, then start one run of each configuration to estimate how long all runs "
+                               "take; nothing is kept",
                                options->estimate);
                 arguments.text("--shard", "I/N",
-                               "only the I-th of N parts, from 1; `dustbench merge` joins their folders",
+                               "run only the I-th of N parts, counted from 1; `dustbench merge` joins their folders",
                                options->shard);
                 arguments.integer("--slurm", "print a Slurm script that runs N shards and merges them",
                                   options->slurmShards, 0, bench::maximumShards);

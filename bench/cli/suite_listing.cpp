@@ -31,7 +31,7 @@ std::string_view stateOf(const bench::PlannedRun& run, const fs::path& folder, b
     }
 }
 
-/// The values that the cells of one method have, in their order, if there are several.
+/// The settings in which the configurations of one method differ, with their values in order.
 class Varied {
  public:
     void add(const std::string& name, const std::string& value) {
@@ -67,7 +67,7 @@ Varied variedOf(const bench::Suite& suite, const std::string& method) {
     return varied;
 }
 
-/// `80 runs: 40 cells, 2 repetitions, 120 frames of 640x480`, and a line for each method.
+/// `80 runs: 40 configurations, 2 repetitions, 120 frames of 640x480`, and a line for each method.
 std::string formText(const std::string& name, const bench::Suite& suite) {
     std::set<std::string> sizes, frames;
     std::vector<std::string> methods;
@@ -76,7 +76,7 @@ std::string formText(const std::string& name, const bench::Suite& suite) {
         frames.insert(std::to_string(cell.spec.frames));
         if (std::ranges::find(methods, cell.spec.method) == methods.end()) methods.push_back(cell.spec.method);
     }
-    std::string text = fmt::format("  {:<12} {} runs: {} cells, {} repetition{}, {} frames of {}\n", name,
+    std::string text = fmt::format("  {:<12} {} runs: {} configurations, {} repetition{}, {} frames of {}\n", name,
                                    bench::planRuns(suite).size(), suite.cells.size(), suite.repetitions,
                                    suite.repetitions == 1 ? "" : "s", fmt::join(frames, "/"), fmt::join(sizes, ", "));
     for (const std::string& method : methods)
@@ -103,7 +103,7 @@ std::vector<bench::PlannedRun> printPlan(const std::vector<bench::PlannedRun>& p
                                                   run.spec.repetition, repetitions))
                   << "\n";
     }
-    std::cerr << fmt::format("{} runs, {} to do, which take {} at most\n", plan.size(), toDo.size(),
+    std::cerr << fmt::format("{} runs, {} to do, which take up at most {}\n", plan.size(), toDo.size(),
                              bench::bytesText(bytes));
     return toDo;
 }
@@ -111,7 +111,7 @@ std::vector<bench::PlannedRun> printPlan(const std::vector<bench::PlannedRun>& p
 int printEstimate(const std::vector<bench::PlannedRun>& toDo, PlanOptions options) {
     if (toDo.empty()) return exitOk;
     requireOpenGl();
-    std::cerr << "estimate: starting one run of each kind" << std::endl;
+    std::cerr << "estimate: starting one run of each configuration" << std::endl;
     const bench::TemporaryFolder folder;
     bench::ResultsFolder results(folder.path());
     const bench::PlanForecast forecast = forecastRuns(toDo, results, options);

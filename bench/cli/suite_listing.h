@@ -1,4 +1,4 @@
-// What a suite consists of, for a console: its runs and their state, its form, the time it takes.
+// Describes a suite on a console: its runs and their state, its configurations, and an estimate of its duration.
 #pragma once
 
 #include <filesystem>
@@ -11,15 +11,15 @@
 namespace dustbench::cli {
 
 /// Prints every run with its state in the results folder `out`, which need not exist and is not changed: `done`,
-/// `outdated`, or `to do`, as `damaged` results are too. Returns the runs to do.
+/// `outdated`, `to do`, `damaged` and others. Returns the runs to do, which include damaged ones.
 std::vector<bench::PlannedRun> printPlan(const std::vector<bench::PlannedRun>& plan, int repetitions,
                                          const std::filesystem::path& out);
 
-/// Starts a run of each cell among `toDo`, and prints how long all of them will take. Returns an exit code. Throws
+/// Starts a run of each configuration in `toDo` and prints how long all runs will take. Returns an exit code. Throws
 /// InputError if OpenGL is not available.
 [[nodiscard]] int printEstimate(const std::vector<bench::PlannedRun>& toDo, PlanOptions options);
 
-/// One whole suite, for `list suites ID`: file, what it varies, runs of both forms, comparisons.
+/// Describes one suite for `list suites ID`: file, varied parameters, full and quick run, comparisons.
 [[nodiscard]] std::string describeSuite(const std::string& id);
 
 }  // namespace dustbench::cli

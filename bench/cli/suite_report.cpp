@@ -10,7 +10,7 @@
 namespace dustbench::cli {
 namespace {
 
-/// Tables with many numbers and at most this many rows are transposed, to be more readable.
+/// Tables of metrics with at most this many rows are transposed, because they are easier to read.
 constexpr std::size_t maximumColumns = 6;
 
 bench::TextRows transposed(const bench::TextRows& table) {
@@ -24,7 +24,7 @@ bench::TextRows transposed(const bench::TextRows& table) {
     return turned;
 }
 
-/// `invalid: ` and what saysInvalid says; empty if all runs are valid.
+/// `invalid: ` and the text of saysInvalid; empty if all runs are valid.
 std::string invalidLine(const std::vector<const bench::StoredRun*>& runs) {
     const std::string said = bench::saysInvalid(runs);
     return said.empty() ? "" : "invalid: " + files::printable(said) + "\n";
@@ -41,7 +41,7 @@ std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs
     const bool timed = bench::isTimed(suite, runs);
     std::string text =
         fmt::format("{}\n{}; {}\n", files::printable(suite.title),
-                    timed ? "frames per second; ms of a frame and of its stages" : "not timed: counts and bytes",
+                    timed ? "frames per second; ms per frame and per stage" : "not timed: counts and bytes",
                     suite.repetitions == 1 ? std::string("one run each")
                                            : fmt::format("medians over {} runs each", suite.repetitions));
     text += textOf(timed ? bench::tabulate(suite, runs) : bench::tabulateCounts(suite, runs));
@@ -52,14 +52,14 @@ std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs
     }
     text += invalidLine(all);
     if (bench::TextRows metrics = bench::tabulateMetrics(suite, runs); !metrics.rows.empty())
-        text += "\nmetrics, means over the judged moments (reports/METRICS.md)\n" +
+        text += "\nmetrics, means over the compared frames (reports/METRICS.md)\n" +
                 textOf(metrics.rows.size() <= maximumColumns ? transposed(metrics) : std::move(metrics));
     for (const bench::FitResult& fit : bench::fitSuite(suite, runs)) {
         text += fmt::format("\ngrowth with N = {}: a + b·N^k, 95 % intervals\n", fit.against);
         text += textOf(bench::tabulate(fit));
     }
     for (const bench::ComparisonResult& comparison : bench::suiteVerdicts(suite, runs)) {
-        text += fmt::format("\n{} against {}: ratio of their times, 95 % interval over paired runs\n", comparison.of,
+        text += fmt::format("\n{} against {}: ratio of times, 95 % interval over paired runs\n", comparison.of,
                             comparison.with);
         text += textOf(bench::tabulate(comparison));
         for (const std::string& sentence : bench::conclusions(comparison)) text += files::printable(sentence) + "\n";
@@ -70,12 +70,12 @@ std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs
 std::string runsReport(const std::string& title, const std::vector<bench::MeasuredCell>& cells) {
     std::vector<const bench::StoredRun*> all;
     for (const bench::MeasuredCell& cell : cells) all.insert(all.end(), cell.done.begin(), cell.done.end());
-    return title + "\nframes per second; ms of a frame and of its stages; medians over the runs\n" +
+    return title + "\nframes per second; ms per frame and per stage; medians over the runs\n" +
            textOf(bench::tabulate(cells)) + invalidLine(all);
 }
 
 std::string publishedReport(bench::TextRows table) {
-    return table.rows.empty() ? "" : "the paper's numbers beside ours\n" + textOf(std::move(table));
+    return table.rows.empty() ? "" : "published numbers and ours\n" + textOf(std::move(table));
 }
 
 std::string claimsReport(const std::vector<bench::JudgedClaim>& claims) {

@@ -1,5 +1,5 @@
-// The output of `suite`, `reproduce` and `report --text`: for a suite the table of FPS and stages and its verdicts, for
-// a paper the verdicts on its claims, for other runs the table alone.
+// The text output of `suite`, `reproduce` and `report --text`: tables of frame rates, stages and metrics, comparisons
+// within a suite, and verdicts on a paper's claims.
 #pragma once
 
 #include <string>

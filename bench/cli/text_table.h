@@ -1,4 +1,4 @@
-// Formats a console table: aligned columns, numbers to the right.
+// Formats a console table with aligned columns.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace dustbench::cli {
 /// The first row is the header. A column is right-aligned if all cells below the header look like numbers or are empty.
 [[nodiscard]] std::string textTable(std::vector<std::vector<std::string>> rows);
 
-/// `digits` after the point; empty for NaN.
+/// `digits` after the decimal point; empty if not finite.
 [[nodiscard]] std::string fixed(double value, int digits);
 
 }  // namespace dustbench::cli

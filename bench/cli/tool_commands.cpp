@@ -1,4 +1,4 @@
-// Commands that folders of methods/ offer (methods/contract/experiment.h).
+// Commands that method folders provide (methods/contract/experiment.h).
 #include <algorithm>
 #include <iostream>
 #include <memory>

@@ -1,4 +1,4 @@
-// End-to-end tests of commands that folders of methods/ offer.
+// End-to-end tests of the commands that method folders provide.
 #include <gmock/gmock.h>
 
 #include <algorithm>

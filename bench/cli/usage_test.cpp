@@ -1,4 +1,4 @@
-// What a user meets at the edges: help, results that are there already, damaged ones, full devices, estimates.
+// Usage in special situations: help, existing and damaged results, full devices, estimates.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ class Usage : public Dustbench {
             methods().front().id);
         return "suite " + (folder_ / "two.toml").string();
     }
-    /// The program with its output to a device that is always full.
+    /// Calls the program with its output on a device that is always full.
     [[nodiscard]] int callOntoFullDevice(const std::string& arguments) const {
         const int status = std::system(
             fmt::format("'{}' {} >/dev/full 2>'{}'", DUSTBENCH_PROGRAM, arguments, (folder_ / "stderr").string())
@@ -52,7 +52,7 @@ TEST_F(Usage, AnUnknownKeyIsAnsweredWithTheNearestAndAllOthers) {
 TEST_F(Usage, AnOptionGivenTwiceIsSaidSo) {
     const Called called = call("run --method null_method --size 64x48 --size 32x24 --out " + out());
     EXPECT_EQ(called.code, 3);
-    EXPECT_EQ(called.err, "dustbench: --size: is given more than once\n");
+    EXPECT_EQ(called.err, "dustbench: --size: given more than once\n");
 }
 
 TEST_F(Usage, WhatCannotBePrintedIsAnError) {
@@ -69,8 +69,8 @@ TEST_F(Usage, ARunThatIsThereIsKeptUnlessForced) {
     const std::string first = contentOf(record);
     const Called again = shortRun(command);
     EXPECT_EQ(again.code, 0);
-    EXPECT_THAT(again.err, HasSubstr("--force measures again"));
-    EXPECT_THAT(again.out, HasSubstr("frame"));  // its table is printed all the same
+    EXPECT_THAT(again.err, HasSubstr("--force measures it again"));
+    EXPECT_THAT(again.out, HasSubstr("frame"));  // its table is printed anyway
     EXPECT_EQ(contentOf(record), first);
     EXPECT_EQ(shortRun(command + " --force").code, 0);
     EXPECT_NE(contentOf(record), first);

@@ -1,4 +1,4 @@
-// `dustbench view`: the interactive window, or one frame of it as a picture.
+// `dustbench view`: opens the interactive window, or draws one frame of it to a picture.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -71,8 +71,7 @@ bench::ViewState ofOptions(const ViewOptions& options) {
     if (!options.with.empty()) state.b = halfOf(options.with, given);
     for (const auto& [name, values] : given) {
         if (values.size() != 1)
-            throw InputError(fmt::format("-P: parameter {}: got {} values, expected one: a view shows one run", name,
-                                         values.size()));
+            throw InputError(fmt::format("-P: parameter {}: got {} values, expected one", name, values.size()));
         const bool isOfHalf = state.a.parameters.contains(name) || (state.b && state.b->parameters.contains(name));
         if (!isOfHalf) (void)bench::resolveParameters(findMethod(state.a.method), {{name, values.front()}});
         if (!isOfHalf) state.world[name] = values.front();
@@ -130,23 +129,23 @@ Command viewCommand() {
     options->world.method = "billboard";
     options->world.warmup = 0;
     return {"view", "Show one method, or two at once, in a window",
-            "The vehicle is driven by hand with `--drive keyboard`. Nothing seen in the window is a measurement.\n" +
+            "To drive the vehicle yourself, use `--drive keyboard`. Nothing shown in the window is a measurement.\n" +
                 keysText(),
             [options](Arguments& arguments) {
                 arguments.text("--method", "ID", "picture A: one of `dustbench list methods`", options->world.method);
-                arguments.text("--with", "ID", "picture B, beside it; 'exact': the exact picture", options->with);
+                arguments.text("--with", "ID", "picture B, next to A: a method, or 'exact' for the ground truth",
+                               options->with);
                 options->world.declareWorld(arguments);
                 arguments.integer("--frame", "go to this frame first", options->frame, 0, 10'000'000);
-                arguments.text("--state", "FILE", "settings that were saved, instead of the options above",
-                               options->state);
+                arguments.text("--state", "FILE", "saved settings, instead of the options above", options->state);
                 arguments.text("--picture", "FILE", "draw the window to a picture (.png, .exr) instead of opening it",
                                options->picture);
-                arguments.text("--show", "A|B|wipe|beside|difference|flip",
-                               "of that picture: how A and B are put together", options->show);
+                arguments.text("--show", "A|B|wipe|beside|difference|flip", "for --picture: how A and B are combined",
+                               options->show);
                 arguments.text("--channel", "picture|alpha|depth|overdraw|outlines|faults",
-                               "of that picture: what of them", options->channel);
-                arguments.text("--window", "WxH", "of that picture, pixels", options->windowSize);
-                arguments.text("--out", "DIR", "folder for what is saved; created when needed", options->out);
+                               "for --picture: what it shows of A and B", options->channel);
+                arguments.text("--window", "WxH", "for --picture: size in pixels", options->windowSize);
+                arguments.text("--out", "DIR", "folder for saved files; created when needed", options->out);
             },
             [options] { return view(*options); }};
 }

@@ -1,4 +1,4 @@
-// `dustbench view` where there is no display.
+// `dustbench view` without a display.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The method `volume`, and dust that is made of a volume: on volumes of our own exporter, whose truth is known.
+// The method `volume`, and dust made from a volume. Our own exporter writes the volumes, so the ground truth is known.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,13 +16,13 @@ class VolumeMethod : public Dustbench {
     static constexpr const char* world =
         " --scene sphere -P camera=fixed --size 96x72 --warmup 1 -P preroll=0 --threads 2 ";
 
-    /// One Gaussian puff in the fixed camera's sight.
+    /// One Gaussian puff in the view of the fixed camera.
     [[nodiscard]] std::string puff() const {
         const fs::path file = folder_ / "puff.csv";
         std::ofstream(file) << "x,y,z,radius,opacity\n0,1.5,0,1,0.8\n";
         return file.string();
     }
-    /// The same as a volume of so many cells along its edge, which our own exporter writes.
+    /// The same as a volume with this many voxels along its edge, written by our own exporter.
     [[nodiscard]] std::string volume(const std::string& format, int cells) const {
         const std::string to = fmt::format("{}/{}{}", folder_.string(), format, cells);
         const Called called =
@@ -53,7 +53,7 @@ TEST_F(VolumeMethod, ShowsAPuffAsItsClosedFormDoesByEveryRenderer) {
     const std::string file = volume("vti", 64);
     struct Case {
         const char* setting;
-        double errorMax;  ///< of linear light, in any pixel
+        double errorMax;  ///< in linear light, over all pixels
     };
     for (const auto& [setting, errorMax] : {Case{"backend=cpu", 0.004}, Case{"backend=gl", 0.004},
                                             Case{"renderer=slices", 0.01}, Case{"renderer=splat", 0.03}}) {
@@ -86,11 +86,11 @@ TEST_F(VolumeMethod, OpenVdbAndVtkFilesOfOneVolumeGiveOnePicture) {
 
 TEST_F(VolumeMethod, ParticlesMadeOfAVolumeGiveTheVolumesPicture) {
     const std::string file = volume("vdb", 32);
-    // The exact picture is that of the particles here; the volume is held against it.
+    // Here the reference image is that of the particles, and the volume is compared with it.
     const std::string results = run("held", "--method volume -P stop_alpha=1 -P volume=" + file + " --dust " + file);
     EXPECT_LT(summary(results, "error_max"), 0.02);
     EXPECT_LT(summary(results, "volume_error"), 0.1);
-    // In the colour that its file says, too.
+    // The colour of its file is used, too.
     std::ofstream(folder_ / "blue.toml") << "files = \"" << file << "\"\n[look]\nalbedo = [0.1, 0.2, 0.9]\n";
     const std::string blue = (folder_ / "blue.toml").string();
     const std::string coloured = run("blue", "--method volume -P stop_alpha=1 -P volume=" + blue + " --dust " + blue);
@@ -162,7 +162,7 @@ TEST_F(VolumeMethod, BadFilesAreOneLine) {
             const Called called = call("run --frames 1 " + use + world + "--out " + out());
             EXPECT_EQ(called.code, 3) << called.err;
             EXPECT_THAT(called.err, HasSubstr(name));
-            const std::size_t first = called.err.find("dustbench: ");  // behind what says that a run begins
+            const std::size_t first = called.err.find("dustbench: ");  // after the line that reports the start of a run
             EXPECT_EQ(called.err.find('\n', first) + 1, called.err.size()) << called.err;
         }
     }

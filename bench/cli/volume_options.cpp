@@ -5,24 +5,25 @@
 namespace dustbench::cli {
 
 void VolumeOptions::declareRequired(Arguments& arguments) {
-    arguments.required(framesName_, "A:B:STEP", "every STEP-th frame from A on, without B; also A:B, or A alone",
+    arguments.required(framesName_, "A:B:STEP", "every STEP-th frame from A to B, excluding B; also A:B, or A alone",
                        frames_);
     declareRest(arguments);
 }
 
 void VolumeOptions::declareOptional(Arguments& arguments) {
-    arguments.text(framesName_, "A:B:STEP", "write volumes of every STEP-th frame from A on, without B", frames_);
+    arguments.text(framesName_, "A:B:STEP", "write volumes of every STEP-th frame from A to B, excluding B", frames_);
     declareRest(arguments);
 }
 
 void VolumeOptions::declareRest(Arguments& arguments) {
     arguments.text("--format", "NAME,NAME…",
-                   "of volumes: vti (grid), htg (octree), vtp (particles), vdb (OpenVDB); default: vti", formats_);
-    arguments.text("--resolution", "N", "cells along the longest edge of a grid, at most 2048; default: 128",
+                   "formats of volumes: vti (grid), htg (octree), vtp (particles), vdb (OpenVDB); default: vti",
+                   formats_);
+    arguments.text("--resolution", "N", "voxels along the longest edge of a grid, at most 2048; default: 128",
                    resolution_);
     arguments.text("--region", "x0,y0,z0,x1,y1,z1",
                    "box that the grids cover, in metres; default: the extent of each frame's cloud", region_);
-    arguments.text("--vdb-precision", "half|float", "of .vdb; default: half", precision_);
+    arguments.text("--vdb-precision", "half|float", "precision of .vdb; default: half", precision_);
 }
 
 std::optional<bench::VolumeSettings> VolumeOptions::over(const std::optional<bench::VolumeSettings>& base) const {

@@ -11,13 +11,13 @@ namespace dustbench::cli {
 
 class VolumeOptions {
  public:
-    /// `framesName` is `--frames` if frames are mandatory, or `--volumes` if omitting them means no volumes.
+    /// `framesName` is `--frames` if frames are mandatory, or `--volumes` if volumes are optional.
     explicit VolumeOptions(std::string framesName) : framesName_(std::move(framesName)) {}
 
     void declareRequired(Arguments& arguments);
     void declareOptional(Arguments& arguments);
-    /// The given options, with `base` as default. Empty: no volumes. Throws InputError, also if a format or similar
-    /// option is given without frames.
+    /// The given options, with `base` as default. Empty: no volumes. Throws InputError, also if another volume option
+    /// is given without frames.
     [[nodiscard]] std::optional<bench::VolumeSettings> over(const std::optional<bench::VolumeSettings>& base) const;
 
  private:

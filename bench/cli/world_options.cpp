@@ -14,7 +14,7 @@ void WorldOptions::declare(Arguments& arguments) {
     arguments.required("--method", "ID", "one of `dustbench list methods`", method);
     declareWorld(arguments);
     arguments.texts("--at", "TIMEs:name=value",
-                    "change something of the method while the run goes on, so many seconds after its first recorded "
+                    "change a setting of the method during the run, this many seconds after its first recorded "
                     "frame: 2.5s:velocity.speed=8",
                     changes);
 }
@@ -26,8 +26,8 @@ bench::ParameterLists WorldOptions::parameterLists() const {
     const auto& declared = info.parameters.all();
     const auto parameter = std::ranges::find(declared, ParameterType::changes, &Parameter::type);
     if (parameter == declared.end())
-        throw InputError("--at: got '" + changes.front() + "', but nothing of method '" + info.id +
-                         "' changes while a run goes on");
+        throw InputError("--at: got '" + changes.front() + "', but method '" + info.id +
+                         "' has no setting that can change during a run");
     std::string all;
     for (const std::string& change : changes) all.append(all.empty() ? "" : ";").append(change);
     lists.emplace_back(parameter->name, std::vector{all});
@@ -45,16 +45,16 @@ void WorldOptions::declareWorld(Arguments& arguments) {
     arguments.text(
         "--dust", "FILE",
         "particles of another program instead of the scene's dust: .vtp, .vdb, .csv, a volume, or a series of them, "
-        ".pvd or .series; frame 0 shows its first moment",
+        ".pvd or .series, whose first moment is frame 0",
         dust);
     arguments.text("--dust-columns", "key=NAME,…",
-                   "what its columns are, by the keys position, radius, opacity, mass, age, lifetime, id, velocity, "
+                   "names of its columns, by the keys position, radius, opacity, mass, age, lifetime, id, velocity, "
                    "colour, time, scale, up; or a .toml file with them; default: the usual names",
                    dustColumns);
     arguments.texts("-P", "name=value", "set a parameter of the method or of the world", parameters);
     arguments.integer("--warmup", "unrecorded frames before frame 0", warmup, 0, 10'000'000);
-    arguments.text("--size", "WxH", "of the picture, pixels", size);
-    arguments.integer("--seed", "of all randomness", seed, 0);
+    arguments.text("--size", "WxH", "size of the picture in pixels", size);
+    arguments.integer("--seed", "seed of all random numbers", seed, 0);
     arguments.integer("--threads", "CPU threads, including those of a software rasteriser; 0: one per core", threads, 0,
                       1024);
 }

@@ -1,4 +1,4 @@
-// The options that select one method in one world.
+// The options that select a method and a world.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace dustbench::cli {
 struct WorldOptions {
     std::string method;
     std::string scene = bench::RunSpec().scene, drive, cameraPath, dust, dustColumns;
-    std::vector<std::string> parameters;  ///< of -P, not yet parsed
-    std::vector<std::string> changes;     ///< of --at
+    std::vector<std::string> parameters;  ///< values of -P, not yet parsed
+    std::vector<std::string> changes;     ///< values of --at
     std::int64_t warmup = bench::RunSpec().warmup;
     std::string size = "640x480";
     std::int64_t seed = 1, threads = 0;
@@ -23,7 +23,7 @@ struct WorldOptions {
     void declare(Arguments& arguments);
     /// All except the method.
     void declareWorld(Arguments& arguments);
-    /// The values of -P and --at. Throws InputError if the method takes no changes.
+    /// The values of -P and --at. Throws InputError if the method has no settings that can change during a run.
     [[nodiscard]] bench::ParameterLists parameterLists() const;
     /// All except the parameters. Throws InputError for an unknown name.
     [[nodiscard]] bench::RunSpec toSpec() const;

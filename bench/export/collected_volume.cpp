@@ -45,8 +45,8 @@ void CollectedVolume::octree(const OctreeVolume& volume) {
         const std::uint32_t cells = known ? 1u << voxel.level : 0;
         if (voxel.x >= cells || voxel.y >= cells || voxel.z >= cells || !std::isfinite(voxel.extinctionPerMetre))
             throw std::runtime_error(fmt::format(
-                "octree voxel ({}, {}, {}) of level {}, extinction {}: lies outside a tree of depth {}, or its "
-                "extinction is no finite number",
+                "octree voxel ({}, {}, {}) of level {}, extinction {}: is outside a tree of depth {}, or its "
+                "extinction is not a finite number",
                 voxel.x, voxel.y, voxel.z, voxel.level, voxel.extinctionPerMetre, volume.depth));
     }
     octrees_.push_back({volume.originMetres, volume.edgeMetres, volume.depth, {}});
@@ -64,7 +64,7 @@ void CollectedVolume::grid(const GridVolume& volume) {
         for (std::size_t n = 0; n < values.size(); ++n)
             if (!std::isfinite(values[n]))
                 throw std::runtime_error(
-                    fmt::format("grid: the {} of cell {} is no finite number", name, n / components));
+                    fmt::format("grid: the {} of cell {} is not a finite number", name, n / components));
         return std::vector<float>(values.begin(), values.end());
     };
     CollectedGrid grid{
@@ -84,8 +84,8 @@ void CollectedVolume::surface(const SurfaceVolume& volume) {
                                                  count * components));
         for (std::size_t n = 0; n < values.size(); ++n)
             if (!std::isfinite(values[n]))
-                throw std::runtime_error(fmt::format("surface {}: the {} of point {} is no finite number", volume.name,
-                                                     name, n / components));
+                throw std::runtime_error(fmt::format("surface {}: the {} of point {} is not a finite number",
+                                                     volume.name, name, n / components));
     };
     const auto numbersOf = [](std::span<const glm::vec3> vectors) {
         return std::span<const float>(reinterpret_cast<const float*>(vectors.data()), 3 * vectors.size());

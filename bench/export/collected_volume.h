@@ -1,4 +1,4 @@
-// Keeps a copy of the cloud that a method handed over for one frame, because it is used several times.
+// A copy of the volume that a method provides for one frame. Several writers use it.
 //
 // Units: metres, seconds, extinction per metre. Frame: world. Owns: copies.
 #pragma once
@@ -73,16 +73,16 @@ class CollectedVolume final : public VolumeVisitor {
     void surface(const SurfaceVolume& volume) override;
 
     [[nodiscard]] const std::vector<CollectedPuff>& puffs() const { return puffs_; }
-    /// The particles handed over last, as a view of their owner's storage: valid until its next step. Empty if there
-    /// were none.
+    /// The last particles provided, as a view of their owner's storage, valid until its next step. Empty if there were
+    /// none.
     [[nodiscard]] const std::optional<Puffs>& particles() const { return particles_; }
     [[nodiscard]] const std::vector<CollectedOctree>& octrees() const { return octrees_; }
-    /// Nothing was handed over, not even an empty cloud.
+    /// Nothing was provided, not even an empty cloud.
     [[nodiscard]] bool isNothing() const { return !anyPuffs_ && octrees_.empty() && grids_.empty(); }
-    /// The cloud is exactly one tree, so it can be written as one.
+    /// The cloud is exactly one octree, so it can be written as one.
     [[nodiscard]] bool isOneOctree() const { return octrees_.size() == 1 && !anyPuffs_ && grids_.empty(); }
     [[nodiscard]] const std::vector<CollectedGrid>& grids() const { return grids_; }
-    /// Surfaces are no cloud: `bounds` and `isNothing` do without them.
+    /// Surfaces are not part of the cloud: `bounds` and `isNothing` ignore them.
     [[nodiscard]] const std::vector<CollectedSurface>& surfaces() const { return surfaces_; }
     /// Bounding box of the cloud: whole voxels, and puffs to 4s around their centres (which omits 0.006 % of a puff's
     /// mass along each axis). Empty if there is no extinction.

@@ -1,4 +1,4 @@
-// Dust that is exported and read back is the same dust.
+// Exporting dust and reading it back gives the same dust.
 #include <gtest/gtest.h>
 
 #include "bench/export/series.h"

@@ -34,7 +34,7 @@ fs::path someFile(const char* extension) {
     return fs::temp_directory_path() / ("export_bench_" + std::to_string(getpid()) + extension);
 }
 
-/// A plain VTK export of the same array with all defaults, or with the data appended after the XML, as we do.
+/// A plain VTK export of the same array with all defaults, or with the data appended after the XML, as ours does.
 void writePlainly(const ExtinctionGrid& grid, const fs::path& file, bool appendedRaw) {
     vtkNew<vtkFloatArray> extinction;
     extinction->SetName("extinction");

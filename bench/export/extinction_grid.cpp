@@ -16,8 +16,8 @@ namespace {
 constexpr double reachDeviations = 5;
 constexpr int slabCells = 4;
 
-/// Both shapes are a mass times a distribution along each axis; `below` is the share of the mass below a coordinate. A
-/// cell's average is then mass / volume · Π over the axes of [below(its end) − below(its beginning)].
+/// Both shapes are a mass times a distribution along each axis; `below` is the share of the mass below a coordinate.
+/// The average over a cell is mass / volume · Π over the axes of [below(end) − below(beginning)].
 struct GaussianShape {
     glm::dvec3 centre;
     double reachMetres;
@@ -80,7 +80,7 @@ struct Run {
     }
 };
 
-/// The part of the grid between two of its z layers, to which shapes are added one after the other.
+/// The part of the grid between two z layers. Shapes are added one after the other.
 class Slab {
  public:
     Slab(ExtinctionGrid& grid, int firstLayer, int endLayer)
@@ -136,7 +136,7 @@ class Slab {
     std::array<Run, 3> along_;
 };
 
-/// Readable gibibytes, and the exact bytes.
+/// Exact bytes, and gibibytes in brackets.
 std::string bytesText(std::int64_t bytes) {
     return fmt::format("{} bytes ({:.1f} GiB)", bytes, static_cast<double>(bytes) / (1 << 30));
 }

@@ -44,7 +44,7 @@ struct ExtinctionGrid {
 };
 
 /// Cell averages of puffs (to 5s, which omits less than one part in 10⁵ of a puff's mass) and of voxels, summed in the
-/// order in which they were handed over.
+/// order in which they were provided.
 [[nodiscard]] ExtinctionGrid computeGrid(const CollectedVolume& volume, const GridPlan& plan);
 
 }  // namespace dustbench::bench

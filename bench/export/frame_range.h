@@ -21,7 +21,7 @@ struct FrameRange {
     [[nodiscard]] std::string text() const;
 };
 
-/// `A:B:STEP` without B, `A:B` for every frame, or `A` alone. Throws InputError with a message starting with `what`.
+/// `A:B:STEP` excluding B, `A:B` for every frame, or only `A`. Throws InputError with a message starting with `what`.
 [[nodiscard]] FrameRange parseFrameRange(std::string_view what, std::string_view text);
 
 }  // namespace dustbench::bench

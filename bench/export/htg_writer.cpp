@@ -20,7 +20,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Data of a node: of its ancestors on the way down, of its whole subtree on the way up.
+/// Data of a node: from its ancestors on the way down, from its subtree on the way up.
 struct Summary {
     double extinctionPerMetre = 0;
     float ageSeconds = std::numeric_limits<float>::quiet_NaN();

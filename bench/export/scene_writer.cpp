@@ -124,8 +124,8 @@ void addBlock(vtkMultiBlockDataSet& blocks, const std::string& name, vtkPolyData
     blocks.GetMetaData(index)->Set(vtkCompositeDataSet::NAME(), name.c_str());
 }
 
-/// Moves the pieces that VTK wrote below `written` to the folder of pieces beside `file`, each once: a piece has its
-/// content's name, so that what does not change is shared by all frames. Returns what the file is to say.
+/// Moves the pieces that VTK wrote below `written` to the folder of pieces next to `file`. Pieces are named after their
+/// content, so that all frames share those that do not change. Returns the text of the file.
 std::string keepPieces(const fs::path& written, const fs::path& file) {
     const fs::path folder = file.parent_path() / scenePieces;
     std::error_code error;
@@ -174,7 +174,7 @@ void writeScene(const scene::Scene& scene, const scene::SceneState& state, const
                  placed(scene::solidMesh(scene, state, i), scene::solidPose(scene, state, i).toWorld));
     stampTime(*blocks, timeSeconds);
 
-    // VTK puts the pieces into a folder with the file's name beside the file.
+    // VTK writes the pieces to a folder next to the file, with the file's name.
     WholeFile elsewhere(file);
     std::error_code error;
     fs::remove_all(elsewhere.beside(), error);

@@ -16,8 +16,8 @@ namespace dustbench::bench {
 
 /// Writes blocks `terrain`, `body`, `wheel_front_left` … and the solids by name, in world coordinates, with normals and
 /// (except for the ground) 8-bit sRGB `colour`. `ground` selects its part by x and z. The pieces are in the folder
-/// `scene` beside `file`, named after their content, so that those that do not change are there once for all frames;
-/// the file is written after them. Throws InputError if it cannot be written.
+/// `scene` next to `file`, named after their content, so that those that do not change exist once for all frames; the
+/// file is written after them. Throws InputError if it cannot be written.
 void writeScene(const scene::Scene& scene, const scene::SceneState& state, const Box& ground, double timeSeconds,
                 const std::filesystem::path& file);
 

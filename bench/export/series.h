@@ -15,8 +15,8 @@ class Series {
 
     Series(std::filesystem::path file, Kind kind) : file_(std::move(file)), kind_(kind) {}
 
-    /// Adds a frame; `name` is its file beside the series. Rewrites the whole series, so that it never names an
-    /// incomplete file. Throws InputError if it cannot be written.
+    /// Adds a frame; `name` is its file, in the folder of the series. Rewrites the whole series, so that it never names
+    /// an incomplete file. Throws InputError if it cannot be written.
     void add(std::string_view name, double timeSeconds);
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double someSeconds = 2.0 + 1.0 / 60;
 
-/// A lattice of 5 × 4 points that tells its point in every number.
+/// A lattice of 5 × 4 points whose numbers all identify their point.
 CollectedSurface numberedSurface() {
     CollectedSurface surface{"wall", 5, 4, {}, {}, {}, {{"depth_removed", "m", 1, {}}}};
     for (int i = 0; i < 20; ++i) {

@@ -1,4 +1,4 @@
-// Writes a surface that a method changed: as a mesh, and its heights as a picture.
+// Writes a surface that a method changed, as a mesh and as a picture of its heights.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace dustbench::bench {
 /// completely or not at all. Throws InputError if it cannot be written.
 void writeSurface(const CollectedSurface& surface, double timeSeconds, const std::filesystem::path& file);
 
-/// The heights as a grey `.exr`, one pixel per point, rows from the top: what a relief's `heights` may name.
+/// The heights as a grey `.exr`, one pixel per point, rows from the top, as for the key `heights` of a relief.
 void writeHeights(const CollectedSurface& surface, const std::filesystem::path& file);
 
 }  // namespace dustbench::bench

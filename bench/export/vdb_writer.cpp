@@ -53,7 +53,7 @@ typename Grid::Ptr sparse(const float* values, const std::array<int, 3>& cells, 
         box, reinterpret_cast<Value*>(const_cast<float*>(values)));
     const auto grid = Grid::create(Value(0));
     openvdb::tools::copyFromDense(dense, *grid, Value(0));
-    // OpenVDB takes a cell of less than 3e-15 m³ for none.
+    // OpenVDB treats cells of less than 3e-15 m³ as empty.
     constexpr double smallestSpacing = 1.5e-5;
     if (spacing < smallestSpacing)
         throw InputError(
@@ -93,7 +93,7 @@ void writeVdb(const ExtinctionGrid& grid, VdbPrecision precision, std::int64_t f
     const float largest = *std::ranges::max_element(grid.extinctionPerMetre);
     if (half && largest > largestHalf)
         throw InputError(
-            fmt::format("{}: an extinction of {} per metre is beyond half floats, allowed: at most {}, or "
+            fmt::format("{}: an extinction of {} per metre exceeds the range of half floats, allowed: at most {}, or "
                         "--vdb-precision float",
                         file.string(), largest, largestHalf));
     initialise();

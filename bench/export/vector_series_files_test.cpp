@@ -1,4 +1,4 @@
-// What is exported is read back as a series of vectors: the same field, in the world's frame and metres.
+// An exported field read back as a series of vectors is the same field, in the world's frame and in metres.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -88,7 +88,7 @@ TEST(VectorSeriesFiles, ThatCannotBeUsedAreRefusedInOneLine) {
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     };
     for (const auto& [file, notWhole] : {std::pair(good, "not a complete VTK image data file (.vti)"),
-                                         std::pair(goodVdb, "not a whole file of OpenVDB")}) {
+                                         std::pair(goodVdb, "not a complete OpenVDB file")}) {
         expectRefused(refused({file}, "speed"), "no field of vectors 'speed'; it has: velocity");
         expectRefused(refused({file}, "density"), "no field of vectors 'density'");
         expectRefused(refused({file, file}), "after 1 s");

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A name as a part of a file's name.
+/// A name in a form that is valid within a file name.
 std::string fileWord(std::string name) {
     for (char& letter : name)
         if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
@@ -41,10 +41,10 @@ std::string whyNotWritable(const CollectedVolume& volume, VolumeFormat format) {
             return {};
         case VolumeFormat::vti:
         case VolumeFormat::vdb:
-            return volume.isNothing() ? "hands over no volume" : "";
+            return volume.isNothing() ? "provides no volume" : "";
         case VolumeFormat::htg:
             if (volume.isOneOctree()) return {};
-            return volume.octrees().empty() ? "hands over no octree" : "hands over more than one octree";
+            return volume.octrees().empty() ? "provides no octree" : "provides more than one octree";
     }
     return {};
 }
@@ -55,8 +55,8 @@ void requireWritable(const CollectedVolume& volume, const std::vector<VolumeForm
         if (reason.empty()) continue;
         std::vector<VolumeFormat> possible{VolumeFormat::vti, VolumeFormat::htg, VolumeFormat::vtp, VolumeFormat::vdb};
         std::erase_if(possible, [&](VolumeFormat each) { return !whyNotWritable(volume, each).empty(); });
-        throw InputError(fmt::format("format {}: method {} {}; formats it can be written as: {}",
-                                     volumeFormats.wordOf(format), method, reason, formatsText(possible)));
+        throw InputError(fmt::format("format {}: method {} {}; possible formats: {}", volumeFormats.wordOf(format),
+                                     method, reason, formatsText(possible)));
     }
 }
 
@@ -138,13 +138,13 @@ void VolumeExporter::writeOwnGrid(const ExportedMoment& moment) {
     }
 }
 
-/// Writes each surface that the method changes, beside its own particles.
+/// Writes each surface that the method changes, in addition to its own particles.
 void VolumeExporter::writeSurfaces(const ExportedMoment& moment) {
     const double time = moment.state.timeSeconds;
     std::set<std::string> parts;
     for (const CollectedSurface& surface : moment.volume.surfaces()) {
         std::string part = fmt::format("{}_{}", moment.method, fileWord(surface.name));
-        while (!parts.insert(part).second) part += '_';  // names that differ in other letters
+        while (!parts.insert(part).second) part += '_';  // names that differ only in replaced characters
         const std::string mesh = fmt::format("f{:06}_{}.vtp", moment.frame, part);
         writeSurface(surface, time, folder_ / mesh);
         addTo(part + ".pvd", Series::Kind::pvd, mesh, time);

@@ -25,7 +25,7 @@
 
 namespace dustbench::bench {
 
-/// Why this cloud cannot be written in the format (`hands over no octree`); empty if it can.
+/// Why this cloud cannot be written in the format (`provides no octree`); empty if it can.
 [[nodiscard]] std::string whyNotWritable(const CollectedVolume& volume, VolumeFormat format);
 /// Throws InputError with the method, the reason and the possible formats if one of the formats cannot be written.
 void requireWritable(const CollectedVolume& volume, const std::vector<VolumeFormat>& formats, std::string_view method);

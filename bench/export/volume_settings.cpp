@@ -34,7 +34,7 @@ std::vector<VolumeFormat> parseFormats(std::string_view text) {
         const auto format = volumeFormats.find(name);
         if (!format)
             throw InputError(
-                fmt::format("format: got '{}', allowed: vti, htg, vtp, vdb or several of them joined by ','", name));
+                fmt::format("format: got '{}', allowed: vti, htg, vtp, vdb, or several separated by ','", name));
         formats.push_back(*format);
     }
     std::ranges::sort(formats);
@@ -57,15 +57,15 @@ Box parseRegion(std::string_view text) {
         double number = 0;
         const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
         if (error != std::errc() || end != part.data() + part.size())
-            throw refuse(fmt::format("where '{}' is no number", part));
-        if (!(std::abs(number) <= farthestMetres)) throw refuse("with a number beyond ±1000000");
+            throw refuse(fmt::format("but '{}' is not a number", part));
+        if (!(std::abs(number) <= farthestMetres)) throw refuse("with a number outside -1000000..1000000");
         numbers.push_back(number);
     }
-    if (numbers.size() != 6) throw refuse(fmt::format("which are {} numbers", numbers.size()));
+    if (numbers.size() != 6) throw refuse(fmt::format("which has {} numbers", numbers.size()));
     const Box box{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
     for (int axis = 0; axis < 3; ++axis)
         if (!(box.maximum[axis] - box.minimum[axis] >= minimumEdgeMetres))
-            throw refuse(fmt::format("where {0}1 is not at least 0.001 above {0}0", "xyz"[axis]));
+            throw refuse(fmt::format("but {0}1 must exceed {0}0 by at least 0.001", "xyz"[axis]));
     return box;
 }
 

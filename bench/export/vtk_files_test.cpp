@@ -43,7 +43,7 @@ void expectTime(vtkDataObject& data) {
     EXPECT_EQ(time->GetTuple1(0), vtkSeconds);
 }
 
-/// Of all arrays but the particles' numbers.
+/// Every array except `serial` has a unit.
 void expectUnits(vtkDataObject& data, vtkFieldData& arrays) {
     EXPECT_GT(arrays.GetNumberOfArrays(), 0);
     for (int i = 0; i < arrays.GetNumberOfArrays(); ++i) {
@@ -347,7 +347,7 @@ TEST(SceneFile, BlocksStandWhereTheSceneHasThem) {
         }
         vtkDataArray* colour = surface->GetPointData()->GetArray("colour");
         EXPECT_EQ(colour->GetComponent(0, 0), 255);
-        EXPECT_EQ(colour->GetComponent(0, 1), 127);  // half as bright to the eye is 0.214 linear
+        EXPECT_EQ(colour->GetComponent(0, 1), 127);  // half the perceived brightness is 0.214 in linear light
         EXPECT_EQ(colour->GetComponent(0, 2), 0);
     };
     expectPlaced("body", poses.body.toWorld);

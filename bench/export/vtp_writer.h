@@ -1,4 +1,4 @@
-// Writes particles as points with serial, age, lifetime, radius, opacity, velocity and, if each has its own, colour.
+// Writes particles as points with serial, age, lifetime, radius, opacity, velocity and, if they differ in it, colour.
 #pragma once
 
 #include <filesystem>

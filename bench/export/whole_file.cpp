@@ -21,7 +21,7 @@ void putEntryOnDisk(const fs::path& path) {
     if (handle < 0) files::failWriting(path, errno);
     const int error = fsync(handle) == 0 ? 0 : errno;
     close(handle);
-    if (error != 0 && error != EINVAL && error != EROFS) files::failWriting(path, error);  // no disk below: EINVAL
+    if (error != 0 && error != EINVAL && error != EROFS) files::failWriting(path, error);  // EINVAL: not on a disk
 }
 
 }  // namespace

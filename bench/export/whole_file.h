@@ -1,5 +1,5 @@
-// Atomic file writing: the file is written under a hidden name in the same folder, is put on disk, then renamed. So a
-// file under its own name is whole, even after a loss of power.
+// Atomic file writing: a file is written under a hidden name in the same folder, synchronised to disk, then renamed. A
+// file under its final name is therefore complete, even after a loss of power.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace dustbench::bench {
 
-/// Owns: the file or folder under the hidden name; it is removed with the object unless it was published.
+/// Owns: the file or folder under the hidden name. The destructor removes it unless it was published.
 class WholeFile {
  public:
     explicit WholeFile(std::filesystem::path place);
@@ -30,13 +30,13 @@ class WholeFile {
 
 /// Waits until a file, or a folder with all that is in it, is on disk (fsync). Throws as files::failWriting.
 void putOnDisk(const std::filesystem::path& path);
-/// The same for the name alone, after it was created or changed.
+/// The same for only the name, after it was created or changed.
 void putNameOnDisk(const std::filesystem::path& path);
 
 /// Throws as files::failWriting if it cannot be written.
 void writeWhole(const std::filesystem::path& file, std::string_view content);
 
-/// Where no error number is known: files::failWriting.
+/// For failures without an error number; with one, see files::failWriting.
 [[nodiscard]] InputError cannotWrite(const std::filesystem::path& path, std::string_view reason);
 
 /// Removes unfinished WholeFiles left in the folder by an interrupted program.

@@ -46,7 +46,7 @@ double secondsSinceProcessStart() {
     std::int64_t startTicks = 0;
     timespec now{};
     if (!(file >> startTicks) || clock_gettime(CLOCK_BOOTTIME, &now) != 0)
-        throw std::runtime_error("/proc/self/stat: does not say when this process began");
+        throw std::runtime_error("/proc/self/stat: does not contain the start time of this process");
     return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9 -
            static_cast<double>(startTicks) / static_cast<double>(sysconf(_SC_CLK_TCK));
 }

@@ -103,11 +103,11 @@ CostFit fitCost(std::span<const CostPoint> points) {
     const bool withFixed = line.a > 0;
     const auto freedom = static_cast<double>(points.size()) - (withFixed ? 3 : 2);
     if (!growthIsResolved(squaresOfConstant(points), line.squares, freedom)) {
-        fit.reason = "no growth with the load stands out from the scatter";
+        fit.reason = "any growth with the load is within the scatter";
         return fit;
     }
     if (!(line.b > 0) || k < minimumExponent + margin || k > maximumExponent - margin) {
-        fit.reason = "the cost does not grow with the load as a power of it";
+        fit.reason = "the cost does not grow as a power of the load";
         return fit;
     }
     fit.fixedMs.value = line.a;

@@ -39,7 +39,7 @@ struct CostFit {
     std::string reason{};
 };
 
-/// Range of the exponent search. A best exponent at either end is rejected.
+/// Range of the exponent search. A result at either end is rejected.
 inline constexpr double minimumExponent = 0.05;
 inline constexpr double maximumExponent = 4;
 

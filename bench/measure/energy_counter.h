@@ -1,6 +1,6 @@
 // Hardware counters of the energy used: CPU packages through powercap, the GPU through NVML.
 //
-// If the machine does not provide a counter there is none: energy is measured or missing, never estimated.
+// Energy is measured or missing, never estimated.
 // Units: joules. Threads: one at a time.
 #pragma once
 
@@ -18,7 +18,8 @@ class EnergyCounter {
     [[nodiscard]] virtual double joules() = 0;
 };
 
-/// All CPU packages together (RAPL). Null if there are none or they cannot be read: since Linux 5.10 only root can.
+/// All CPU packages together (RAPL). Null if there are none or they cannot be read; since Linux 5.10 only root can read
+/// them.
 [[nodiscard]] std::unique_ptr<EnergyCounter> packageEnergy(
     const std::filesystem::path& powercap = "/sys/class/powercap");
 

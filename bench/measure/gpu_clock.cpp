@@ -8,8 +8,11 @@ namespace {
 
 /// Idle clocks and clocks that the user has set are not throttling.
 std::string reasonsText(unsigned long long bits) {
-    constexpr std::array<std::pair<unsigned long long, const char*>, 5> reasons{
-        {{0x04, "power cap"}, {0x08, "hardware slowdown"}, {0x20, "heat"}, {0x40, "heat (hardware)"}, {0x80, "power brake"}}};
+    constexpr std::array<std::pair<unsigned long long, const char*>, 5> reasons{{{0x04, "power cap"},
+                                                                                 {0x08, "hardware slowdown"},
+                                                                                 {0x20, "heat"},
+                                                                                 {0x40, "heat (hardware)"},
+                                                                                 {0x80, "power brake"}}};
     std::string text;
     for (const auto& [bit, name] : reasons)
         if ((bits & bit) != 0) text += (text.empty() ? "" : ", ") + std::string(name);

@@ -13,7 +13,7 @@ class GpuEnergy final : public EnergyCounter {
     double joules() override {
         unsigned long long millijoules = 0;
         if (!nvml_->millijoules(device_, millijoules))
-            throw std::runtime_error("NVML: the GPU's energy cannot be read any more");
+            throw std::runtime_error("NVML: the GPU's energy can no longer be read");
         return static_cast<double>(millijoules) * 1e-3;
     }
 

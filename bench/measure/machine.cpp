@@ -95,21 +95,21 @@ std::vector<std::string> disturbances(const Machine& machine) {
                         "performance)",
                         machine.governor));
     if (machine.loadAverage > 0.25 * machine.cores)
-        add(fmt::format("the machine is busy: load average {:.2f} on {} cores (end other programs and wait a minute)",
+        add(fmt::format("the machine is busy: load average {:.2f} on {} cores (stop other programs and wait a minute)",
                         machine.loadAverage, machine.cores));
     if (machine.quotaCores > 0 && machine.quotaCores < machine.cores)
         add(
-            fmt::format("the container may use the time of {:.2f} cores and sees {} (give it whole ones: --cpuset-cpus "
+            fmt::format("the container may use {:.2f} cores but sees {} (assign whole cores: --cpuset-cpus "
                         "instead of --cpus)",
                         machine.quotaCores, machine.cores));
     if (machine.stolenShare > 0.005)
         add(
-            fmt::format("the host of this virtual machine took {:.1f} % of its CPU time since boot (use a machine that "
-                        "is not shared, and more repetitions)",
+            fmt::format("the host has taken {:.1f} % of this virtual machine's CPU time since boot (use a machine that "
+                        "is not shared, or more repetitions)",
                         100 * machine.stolenShare));
     if (machine.throttled > 0)
         add(
-            fmt::format("the CPU was slowed down for its heat {} times since boot (better cooling, or cooldown_s in "
+            fmt::format("the CPU has been throttled {} times since boot (improve the cooling, or set cooldown_s in "
                         "the suite)",
                         machine.throttled));
     return list;

@@ -1,4 +1,4 @@
-// Describes this machine, and what may disturb measurements on it.
+// Describes this machine and possible disturbances of measurements on it.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@ struct Machine {
     std::string kernel;
     double loadAverage = 0;  ///< over the last minute
     bool virtualMachine = false;
-    double stolenShare = 0;      ///< of the CPU time since boot, given by the host to other virtual machines
+    double stolenShare = 0;      ///< share of the CPU time since boot that the host gave to other virtual machines
     double quotaCores = 0;       ///< CPU limit of a container, in cores; 0: no limit
     std::int64_t throttled = 0;  ///< number of thermal throttling events of the first core since boot
 };
 
 [[nodiscard]] Machine readMachine();
 
-/// One sentence for each cause that makes timings on this machine less reliable, with a remedy in brackets.
+/// One sentence for each cause of unreliable timings on this machine, with a remedy in brackets.
 [[nodiscard]] std::vector<std::string> disturbances(const Machine& machine);
 
 }  // namespace dustbench::bench

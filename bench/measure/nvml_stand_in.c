@@ -1,4 +1,4 @@
-/* Two GPUs for tests: each reading of the energy adds 1500 mJ, each reading of the clock takes 100 MHz off it. */
+/* Stand-in for NVML, for tests: two GPUs with energy counters that grow by 1500 mJ and clocks that fall by 100 MHz at each call. */
 #include <string.h>
 
 static unsigned long long used[2] = {1000, 5000};
@@ -19,18 +19,5 @@ int nvmlDeviceGetName(void* device, char* name, unsigned int length) {
 }
 int nvmlDeviceGetTotalEnergyConsumption(void* device, unsigned long long* millijoules) {
     *millijoules = *(unsigned long long*)device += 1500;
-    return 0;
-}
-
-static unsigned int clocks[2] = {1800, 900};
-
-int nvmlDeviceGetClockInfo(void* device, int type, unsigned int* megahertz) {
-    unsigned int* clock = &clocks[device == &used[1]];
-    *megahertz = *clock;
-    *clock -= 100;
-    return type == 0 ? 0 : 2;
-}
-int nvmlDeviceGetCurrentClocksThrottleReasons(void* device, unsigned long long* reasons) {
-    *reasons = device == &used[1] ? 0x24 : 0x1;
     return 0;
 }

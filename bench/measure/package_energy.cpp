@@ -41,7 +41,7 @@ class PackageEnergy final : public EnergyCounter {
     double joules() override {
         for (Package& package : packages_) {
             const auto now = readFirst<std::int64_t>(package.counter);
-            if (!now) throw std::runtime_error(package.counter.string() + ": cannot be read any more");
+            if (!now) throw std::runtime_error(package.counter.string() + ": can no longer be read");
             total_ += *now >= package.last ? *now - package.last : *now - package.last + package.range + 1;
             package.last = *now;
         }

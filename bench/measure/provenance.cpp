@@ -53,7 +53,7 @@ std::string ownBuildId() {
     return id;
 }
 
-/// Within a folder of data its path there, which is the same on every machine; else its absolute path.
+/// The path within its data folder, which is the same on every machine; the absolute path of other files.
 std::string nameOfInput(const std::filesystem::path& file) {
     const auto whole = std::filesystem::absolute(file).lexically_normal();
     for (const std::filesystem::path& folder : files::dataFolders()) {
@@ -105,7 +105,7 @@ Provenance startProvenance(std::vector<std::string> argv, bool measuresTimes) {
 
 std::vector<InputHash> hashInputs(const std::vector<std::filesystem::path>& inputs) {
     std::vector<InputHash> hashes;
-    std::map<std::string, std::filesystem::path> files;  // a mesh may be used more than once, and be named in two ways
+    std::map<std::string, std::filesystem::path> files;  // a mesh may be used more than once, under different names
     for (const std::filesystem::path& file : inputs) files.try_emplace(nameOfInput(file), file);
     hashes.reserve(files.size());
     for (const auto& [name, file] : files) hashes.push_back({name, sha256OfFile(file)});

@@ -21,7 +21,7 @@ struct BuildFacts {
     std::string compiler;
     std::string flags;
     std::string buildType;
-    std::string buildId;  ///< of the program file, hexadecimal, unique to each build; empty if the linker wrote none
+    std::string buildId;  ///< hexadecimal, unique to each build of the program file; empty if the linker wrote none
 };
 [[nodiscard]] BuildFacts buildFacts();
 
@@ -30,7 +30,7 @@ struct InputHash {
     std::string sha256;
 };
 
-/// What of an input file nothing uses: `array 'material' at cells`.
+/// Unused parts of an input file: `array 'material' at cells`.
 struct IgnoredParts {
     std::string file;
     std::vector<std::string> parts;
@@ -44,33 +44,33 @@ struct Provenance {
     bool gpuTimersTrusted = false;
     ClockCost clock;
     std::vector<InputHash> inputs;
-    std::vector<InputHash> searches;  ///< what was looked for, with the hash of the names that were found
+    std::vector<InputHash> searches;  ///< searches for files, with the hash of the names found
     std::vector<IgnoredParts> ignored;
-    /// Variables of the environment that change drawing or threads, `NAME=value` in order of their names, by blanks.
+    /// Environment variables that affect drawing or threads, `NAME=value`, sorted by name, separated by spaces.
     std::string environment;
     std::string startedUtc;  ///< ISO 8601, to the second
     std::vector<std::string> warnings;
 };
 
-/// Of these variables, `NAME=value`, those of Mesa, LLVM, OpenGL's drivers, oneTBB and OpenMP.
+/// Selects from `NAME=value` texts the variables of Mesa, LLVM, OpenGL drivers, oneTBB and OpenMP.
 [[nodiscard]] std::string drawingEnvironment(const char* const* variables);
 
-/// Facts known at the start of this process. The caller adds device, timers and inputs. `measuresTimes`: warns of what
-/// disturbs them.
+/// Facts known at the start of this process. The caller adds device, timers and inputs. `measuresTimes`: adds warnings
+/// about disturbances of times.
 [[nodiscard]] Provenance startProvenance(std::vector<std::string> argv, bool measuresTimes = true);
 
-/// Paths inside the data folder are stored relative to it, so that results from two checkouts compare equal.
+/// Hashes input files. Paths inside a data folder are relative to it, so that results from two checkouts compare equal.
 [[nodiscard]] std::vector<InputHash> hashInputs(const std::vector<std::filesystem::path>& files);
 
-/// Named likewise.
+/// The unused parts of files; paths as above.
 [[nodiscard]] std::vector<IgnoredParts> ignoredParts(
     const std::map<std::filesystem::path, std::vector<std::string>>& ofFiles);
-/// As one line: the parts of a file, and how many other files lack the same; empty if nothing is ignored.
+/// One line: the ignored parts of a file, and the number of other files with ignored parts; empty if there are none.
 [[nodiscard]] std::string saysIgnored(const std::vector<IgnoredParts>& ignored);
 
-/// What these paths stand for now: a pattern for its files, another path for itself if it is there.
+/// Hashes the names that these paths match now: a pattern matches files, any other path matches itself if it exists.
 [[nodiscard]] std::vector<InputHash> hashSearches(const std::vector<std::filesystem::path>& paths);
-/// Of one of them.
+/// The same for one path.
 [[nodiscard]] std::string hashOfFoundNames(const std::filesystem::path& path);
 
 /// The command line of this process.

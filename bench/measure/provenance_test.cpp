@@ -50,7 +50,7 @@ TEST(Provenance, WarnsOfAllThatDisturbs) {
     machine.stolenShare = 0.02;
     machine.throttled = 7;
     EXPECT_THAT(disturbances(machine),
-                testing::ElementsAre(testing::HasSubstr("1.50 cores and sees 4"), testing::HasSubstr("2.0 %"),
+                testing::ElementsAre(testing::HasSubstr("1.50 cores but sees 4"), testing::HasSubstr("2.0 %"),
                                      testing::HasSubstr("7 times")));
 }
 

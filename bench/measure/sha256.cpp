@@ -32,7 +32,7 @@ class Digest {
 
  private:
     static void require(int succeeded) {
-        if (!succeeded) throw std::runtime_error("SHA-256 cannot be computed: the OpenSSL library refuses");
+        if (!succeeded) throw std::runtime_error("SHA-256 cannot be computed: OpenSSL failed");
     }
 
     std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_{EVP_MD_CTX_new(), &EVP_MD_CTX_free};

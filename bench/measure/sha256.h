@@ -1,4 +1,4 @@
-// SHA-256, to identify inputs and runs by their content: the digest that `sha256sum` prints.
+// SHA-256 digests, as printed by `sha256sum`; they identify inputs and runs by content.
 #pragma once
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// A clock that only advances when told to.
+/// A clock that advances only on request.
 struct FakeTime {
     std::int64_t now = 1'000;
     StageRecorder recorder{[this] { return now; }};
@@ -65,7 +65,7 @@ TEST(StageRecorder, ChargesQueuedWorkToTheStageThatQueuedIt) {
     });
     {
         const auto build = time.clock.measure(Stage::build);
-        queued = 50;  // the outer stage's, still queued when the inner one begins
+        queued = 50;  // of the outer stage, still queued when the inner one begins
         const auto upload = time.clock.measure(Stage::upload);
         queued = 400;
     }

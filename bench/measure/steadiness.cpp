@@ -17,10 +17,10 @@ namespace {
 constexpr std::size_t minimumFrames = 30;
 constexpr double enoughChange = 0.05;        // of the median, for warm-up and drift
 constexpr double enoughErrors = 4;           // standard errors
-constexpr double enoughDistance = 0.10;      // of two speeds
+constexpr double enoughDistance = 0.10;      // between two speeds
 constexpr double enoughSeparation = 4.5;     // D
-constexpr double minimumShare = 0.1;         // of the frames at the rarer speed
-constexpr std::size_t maximumRanked = 1000;  // pairs grow with the square
+constexpr double minimumShare = 0.1;         // of the frames at the less frequent speed
+constexpr std::size_t maximumRanked = 1000;  // the number of pairs grows with the square
 
 double standardDeviation(std::span<const double> values, double middle) {
     std::vector<double> distances;
@@ -36,8 +36,8 @@ std::optional<std::string> takeStalls(std::vector<double>& frames) {
     if (stalls == 0) return std::nullopt;
     const auto longest = std::ranges::max_element(frames);
     std::string text =
-        fmt::format("{} of {} frames stalled: they took more than {:.3g} ms, frame {} {:.3g} ms; the median is {:.3g}",
-                    stalls, frames.size(), limit, longest - frames.begin(), *longest, middle);
+        fmt::format("{} of {} frames stalled: over {:.3g} ms, frame {} took {:.3g} ms; the median is {:.3g} ms", stalls,
+                    frames.size(), limit, longest - frames.begin(), *longest, middle);
     std::erase_if(frames, [limit](double ms) { return ms > limit; });
     return text;
 }
@@ -48,7 +48,7 @@ std::optional<std::string> warmUp(std::span<const double> first, std::span<const
     const double error = 1.2533 * deviation *
                          std::sqrt(1.0 / static_cast<double>(first.size()) + 1.0 / static_cast<double>(rest.size()));
     if (early - late <= enoughChange * late || early - late <= enoughErrors * error) return std::nullopt;
-    return fmt::format("the warm-up had not ended: the first {} frames took {:.3g} ms in the median, the others {:.3g}",
+    return fmt::format("the warm-up had not ended: the first {} frames took {:.3g} ms (median), the others {:.3g} ms",
                        first.size(), early, late);
 }
 
@@ -68,7 +68,7 @@ std::optional<std::string> drift(std::span<const double> frames) {
     const double z = static_cast<double>(rising) / std::sqrt(n * (n - 1) * (2 * n + 5) / 18);
     const double change = median(slopes) * (n - 1), middle = median(y);
     if (std::abs(z) <= enoughErrors || std::abs(change) <= enoughChange * middle) return std::nullopt;
-    return fmt::format("frame times drift: {:+.1f} % from the run's beginning to its end", 100 * change / middle);
+    return fmt::format("frame times drift: {:+.1f} % from the beginning of the run to its end", 100 * change / middle);
 }
 
 std::optional<std::string> twoSpeeds(std::span<const double> frames) {
@@ -102,7 +102,7 @@ std::optional<std::string> twoSpeeds(std::span<const double> frames) {
     const double separation = std::numbers::sqrt2 * (slow - fast) / std::sqrt(fastVariance + slowVariance);
     if (slow - fast <= enoughDistance * fast || share < minimumShare || !(separation > enoughSeparation))
         return std::nullopt;
-    return fmt::format("frame times have two speeds: {:.0f} % of the frames take about {:.3g} ms, the others {:.3g}",
+    return fmt::format("frames have two speeds: {:.0f} % of them take about {:.3g} ms, the others {:.3g} ms",
                        100 * static_cast<double>(split) / n, fast, slow);
 }
 

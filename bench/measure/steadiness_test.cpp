@@ -76,7 +76,7 @@ TEST(Steadiness, NamesStallsAndTheLongest) {
     times[31] = 40;
     times[77] = 95;
     EXPECT_THAT(steadinessWarnings(times),
-                ElementsAre(AllOf(HasSubstr("2 of 100 frames stalled"), HasSubstr("frame 77 95 ms"))));
+                ElementsAre(AllOf(HasSubstr("2 of 100 frames stalled"), HasSubstr("frame 77 took 95 ms"))));
     EXPECT_THAT(steadinessWarnings(std::vector<double>{10, 10, 11, 50}), ElementsAre(HasSubstr("1 of 4 frames")));
 }
 

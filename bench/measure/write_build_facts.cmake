@@ -1,4 +1,4 @@
-# Writes HEADER with the commit of SOURCE and how the program is built, unless it says so already.
+# Writes HEADER with the commit of SOURCE and the build settings, if they changed.
 cmake_minimum_required(VERSION 3.25)
 set(COMMIT "")
 set(DIRTY "false")

@@ -26,9 +26,8 @@ Budget parseBudget(const std::string& what, const std::string& text) {
         const double ms = unit == "ms" ? *number : millisecondsOfSecond / *number;
         if (ms > 0 && ms <= maximumMs) return {ms, text};
     }
-    throw InputError(
-        fmt::format("{}: got '{}', allowed: a time like 4ms, or a frame rate like 60fps; above 0, up to {:g} ms", what,
-                    text, maximumMs));
+    throw InputError(fmt::format("{}: got '{}', allowed: a time (4ms) or a frame rate (60fps); above 0, up to {:g} ms",
+                                 what, text, maximumMs));
 }
 
 }  // namespace dustbench::bench

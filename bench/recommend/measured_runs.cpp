@@ -25,7 +25,7 @@ using files::numberOf;
 
 constexpr std::array<std::string_view, 5> neededColumns{"run_id", "status", "method", "scene", "seed"};
 constexpr std::array<std::string_view, 3> conductColumns{"sync", "threads", "frames"};
-/// What summary.csv does not say of a world, by the names of a run's key.
+/// Settings of a world that summary.csv lacks, by their names in a run's key.
 constexpr std::array<std::string_view, 3> worldOfKey{"camera_path", "dust", "dust_columns"};
 
 std::string cellOf(const CsvTable& table, std::size_t row, std::string_view column) {
@@ -40,7 +40,7 @@ void readSettings(const CsvTable& table, std::size_t row, MeasuredRun& run) {
     for (const std::string& column : table.header()) {
         if (!column.starts_with("p.")) continue;
         const std::string name = column.substr(2), &value = table.cell(row, column);
-        // Empty: the method has no such parameter, or nothing changes by `at`.
+        // Empty: the method has no such parameter, or `at` changes nothing.
         if (!value.empty()) (isOfTheWorld(name) ? run.world : run.own)[name] = value;
     }
 }
@@ -48,7 +48,7 @@ void readSettings(const CsvTable& table, std::size_t row, MeasuredRun& run) {
 void readNumbers(const CsvTable& table, std::size_t row, MeasuredRun& run) {
     for (const std::string& column : numericColumns())
         if (const auto value = numberOf(cellOf(table, row, column))) run.numbers[column] = *value;
-    // Judged with dust in view, and no finite number of decibels: no value differs.
+    // An RMSE but no PSNR: the pictures are identical within the mask, so the PSNR is infinite.
     if (table.hasColumn("psnr_mask_db") && run.numbers.contains("rmse_linear_mask"))
         run.numbers.emplace("psnr_mask_db", identicalDb);
 }
@@ -87,7 +87,7 @@ void addProvenance(MeasuredRuns& measured, const StoredRuns& stored) {
     if (measured.machines.empty()) measured.machines.emplace_back();
 }
 
-/// A table of one row, as reports/sample has.
+/// Reads a machine.csv: a table with one row, as in reports/sample.
 MachineFacts machineOf(const CsvTable& table) {
     MachineFacts machine;
     if (table.rows() == 0) return machine;
@@ -133,11 +133,11 @@ void keepOnly(MeasuredRuns& runs, const Condition& condition, const std::vector<
                                     [&value](const std::string& wanted) { return sameValue(value, wanted); });
     });
     if (erased > 0 && runs.runs.empty())
-        throw InputError(fmt::format("{}: got {}={}, allowed: what was measured: {}", condition.option, condition.key,
+        throw InputError(fmt::format("{}: got {}={}, allowed: measured values: {}", condition.option, condition.key,
                                      fmt::join(condition.values, ","), fmt::join(values, ", ")));
 }
 
-/// A run counts once, however often a table that was put together has it.
+/// A concatenated table may contain a run several times, but only with equal rows. It counts once.
 void requireEqualRows(const CsvTable& table, std::size_t first, std::size_t second, const std::string& from) {
     for (const std::string& column : table.header())
         if (table.cell(first, column) != table.cell(second, column))
@@ -163,7 +163,7 @@ MeasuredRuns measuredRuns(const CsvTable& table, const std::string& from) {
         } else if (const std::string why = cellOf(table, row, "invalid"); !why.empty()) {
             ++measured.invalid;
             ++measured.whyInvalid[why];
-        } else if (table.cell(row, "method") != baselineMethod) {  // draws nothing: no answer
+        } else if (table.cell(row, "method") != baselineMethod) {  // which draws nothing
             measured.runs.push_back(runOf(table, row));
         }
     }
@@ -182,7 +182,8 @@ MeasuredRuns readMeasuredRuns(const fs::path& from) {
     const fs::path file = fs::is_directory(from, error) ? from / "summary.csv" : from;
     if (!fs::is_regular_file(file, error))
         throw InputError(fmt::format(
-            "'{}': holds no results, expected a folder that `suite`, `compare` or `reproduce` wrote, or a summary.csv",
+            "'{}': contains no results, expected a summary.csv or a folder written by `suite`, `compare` or "
+            "`reproduce`",
             from.string()));
     MeasuredRuns measured = measuredRuns(CsvTable::parseFile(file), from.string());
     if (const fs::path machine = file.parent_path() / "machine.csv"; fs::is_regular_file(machine, error))

@@ -1,7 +1,7 @@
-// The runs of a result that a recommendation may rest on, with what they were measured on.
+// The runs for a recommendation, with the machines on which they were measured.
 //
-// A run is described by four kinds of settings: its world (scene, drive, size, parameters of the world), those of its
-// method, how it was measured (sync, threads, frames), and its seed. Read from a results folder, or a summary.csv
+// Four kinds of settings describe a run: its world (scene, drive, size, parameters of the world), the parameters of its
+// method, the way of measuring (sync, threads, frames), and its seed. Read from a results folder or from a summary.csv
 // alone.
 #pragma once
 
@@ -20,21 +20,21 @@ namespace dustbench::bench {
 
 using SettingTexts = std::map<std::string, std::string, std::less<>>;
 
-/// In place of `psnr_mask_db` where the picture equals the reference within the mask and the column is empty.
+/// `psnr_mask_db` of a picture that equals the reference within the mask; the column is empty then.
 inline constexpr double identicalDb = std::numeric_limits<double>::infinity();
 
-/// One run that is done and valid.
+/// One completed and valid run.
 struct MeasuredRun {
     std::string runId, method, seed;
     SettingTexts world{}, own{}, conduct{};
-    std::size_t machine = 0;  ///< of MeasuredRuns::machines
-    /// What its pictures were held against: `exact`, or the method with its finer setting; empty if it was not judged.
+    std::size_t machine = 0;  ///< index in MeasuredRuns::machines
+    /// The reference of its pictures: `exact`, or the method with its finer setting; empty if it has no metrics.
     std::string reference{};
-    std::map<std::string, double, std::less<>> numbers{};  ///< by column of summary.csv; none for an empty cell
+    std::map<std::string, double, std::less<>> numbers{};  ///< by column of summary.csv; none for an empty field
 };
 
 struct MachineFacts {
-    SettingTexts fields;            ///< `cpu`, `cores`, `gl_renderer` …; empty: not known
+    SettingTexts fields;            ///< `cpu`, `cores`, `gl_renderer` …; empty if unknown
     std::set<std::string> commits;  ///< of the program
 };
 
@@ -46,10 +46,10 @@ struct MeasuredRuns {
     std::map<std::string, std::size_t> whyInvalid{};  ///< number of runs by reason
 };
 
-/// Reads a results folder, a folder with a summary.csv, or such a file; a machine.csv beside it says where it was
-/// measured. Throws InputError with the file.
+/// Reads a results folder, a folder with a summary.csv, or such a file. A machine.csv next to it describes the machine.
+/// Throws InputError with the file.
 [[nodiscard]] MeasuredRuns readMeasuredRuns(const std::filesystem::path& from);
-/// The same of a table alone. Throws InputError with `from` if a column is missing that no table of runs lacks.
+/// The same for a table alone. Throws InputError with `from` if one of the columns that every table needs is missing.
 [[nodiscard]] MeasuredRuns measuredRuns(const files::CsvTable& table, const std::string& from);
 
 /// One condition: `particles` is 500 or 2000.
@@ -58,8 +58,8 @@ struct Condition {
     std::string key;     ///< `scene`, `size`, `particles` …
     std::vector<std::string> values;
 };
-/// Keeps the runs that meet every condition; numbers are compared as numbers. Throws InputError for a key that no run
-/// has, or values that none of the remaining runs has.
+/// Keeps the runs that meet every condition. Numbers are compared as numbers. Throws InputError for a key or values
+/// that no remaining run has.
 void narrow(MeasuredRuns& runs, const std::vector<Condition>& conditions);
 
 }  // namespace dustbench::bench

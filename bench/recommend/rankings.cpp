@@ -16,10 +16,10 @@ namespace dustbench::bench {
 namespace {
 
 using RunList = std::vector<const MeasuredRun*>;
-/// Reference and length of judged runs.
+/// Reference and length of runs with metrics.
 using Judging = std::pair<std::string, std::string>;
 
-/// All runs of one setting in one world.
+/// All runs of a setting in one world.
 struct SettingRuns {
     std::map<SettingTexts, RunList> timed;  ///< by how they were timed
     std::map<Judging, RunList> judged;
@@ -40,7 +40,7 @@ std::map<WorldKey, WorldRuns> sortRuns(const MeasuredRuns& runs, const PictureMe
     return worlds;
 }
 
-/// A median between two infinities would be none.
+/// The mean of two infinities would be no valid median.
 constexpr double replacesInfinity = 1e300;
 
 MedianInterval intervalOf(std::vector<double> values) {
@@ -72,7 +72,7 @@ void setTime(MeasuredSetting& setting, const RunList& timed) {
     setting.ms = bySeed.size() == 1 ? intervalOf(bySeed.begin()->second) : overSeeds(bySeed);
 }
 
-/// A picture does not depend on the repetition.
+/// Pictures do not depend on the repetition, so values are taken per seed.
 void setMetrics(MeasuredSetting& setting, const RunList& judged, const PictureMetric& quality) {
     const auto add = [&](std::string_view column) {
         if (const auto bySeed = valuesBySeed(judged, column); !bySeed.empty())
@@ -86,7 +86,8 @@ void setMetrics(MeasuredSetting& setting, const RunList& judged, const PictureMe
         std::ranges::any_of(judged, [](const MeasuredRun* run) { return !run->numbers.contains(timeColumn); });
 }
 
-/// Which judged runs a ranking uses: those of the length that most settings have, then most seeds, then the longest.
+/// The length of the runs whose metrics a ranking uses: the one that most settings have, then with most seeds, then the
+/// longest.
 std::string commonFrames(const WorldRuns& world, const SettingTexts& conduct, const std::string& reference) {
     std::map<std::string, std::pair<std::size_t, std::size_t>> found;  // settings and runs, by frames
     for (const auto& [key, setting] : world)
@@ -153,7 +154,7 @@ std::vector<Ranking> rankWorld(const WorldKey& key, WorldRuns& world, const Pict
     return rankings;
 }
 
-/// Names with several values.
+/// Names of settings with several values.
 template <typename List, typename SettingsOf>
 std::set<std::string> varying(const List& list, const SettingsOf& settingsOf) {
     std::map<std::string, std::set<std::string>> values;
@@ -170,7 +171,7 @@ bool isDefault(const ParameterSet* declared, const std::string& name, const std:
     return parameter && parameter->initial == value;
 }
 
-/// `name=value` of what varies or is not the default.
+/// `name=value` of settings that vary or differ from the default.
 std::vector<std::string> toldOf(const SettingTexts& settings, const std::set<std::string>& varies,
                                 const ParameterSet* declared) {
     std::vector<std::string> words;
@@ -215,7 +216,7 @@ void label(std::vector<Ranking>& rankings) {
     }
 }
 
-/// Numbers as numbers: 500 before 2,000.
+/// Compares numbers as numbers: 500 before 2,000.
 bool isBefore(const SettingTexts& a, const SettingTexts& b) {
     return std::ranges::lexicographical_compare(a, b, [](const auto& x, const auto& y) {
         const auto left = files::numberOf(x.second), right = files::numberOf(y.second);

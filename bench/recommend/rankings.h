@@ -1,9 +1,9 @@
-// Settings of methods that were measured in one world, with their time and the quality of their pictures.
+// Settings of methods that were measured in one world, with their times and the quality of their pictures.
 //
-// Times and pictures may be of different runs: they are joined by method, parameters, world and machine. Worlds, ways
-// of timing (sync, threads, frames), references of the pictures and lengths of the judged runs are never mixed: each
-// combination is a ranking of its own. A value is the median over the seeds (over the repetitions of a single seed),
-// its interval that of median_interval.h. Units: as the columns of summary.csv. Threads: pure.
+// Times and pictures may come from different runs, which are joined by method, parameters, world and machine. Worlds,
+// ways of timing (sync, threads, frames), references and lengths of the runs with metrics are never mixed: each
+// combination is a separate ranking. A value is the median over the seeds, or over the repetitions of a single seed,
+// with the interval of median_interval.h. Units: as the columns of summary.csv. Threads: pure.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ inline constexpr std::string_view timeColumn = "method_ms_median";
 /// A metric that ranks pictures, or one that measures a flaw. reports/METRICS.md defines them.
 struct PictureMetric {
     std::string_view column, unit;
-    std::string_view perfect;  ///< of a picture that equals the reference
+    std::string_view perfect;  ///< value of a picture that equals the reference
     bool higherIsBetter = false;
 };
 inline constexpr std::array<PictureMetric, 3> qualityMetrics{
@@ -45,18 +45,18 @@ struct MeasuredSetting {
     std::string method;
     SettingTexts own;
     std::string label{};  ///< `billboard soft=on`: parameters other than the defaults, and those that vary
-    MedianInterval ms{};  ///< of its own time
+    MedianInterval ms{};  ///< the method's own time
     std::size_t timedSeeds = 1;
     MedianInterval quality{};                                      ///< `values`: the number of seeds
-    std::map<std::string, MedianInterval, std::less<>> metrics{};  ///< by column, as far as they were measured
-    bool otherRuns = false;  ///< some of its pictures were judged in runs that give no time
-    bool onFront = false;    ///< every other one, by intervals that do not overlap, costs more or errs more
+    std::map<std::string, MedianInterval, std::less<>> metrics{};  ///< by column, if measured
+    bool otherRuns = false;                                        ///< some of its metrics are from runs without a time
+    bool onFront = false;  ///< every other setting costs more or has worse quality, by intervals without overlap
 };
 
 struct Ranking {
     SettingTexts world, conduct;
     std::string label{};       ///< `scene=plain drive=straight size=320x240 particles=500`
-    std::string judgedFrames;  ///< length of the judged runs
+    std::string judgedFrames;  ///< length of the runs with metrics
     std::string reference;     ///< `exact`, or a finer setting
     std::size_t machine = 0;
     std::vector<MeasuredSetting> settings{};  ///< best picture first
@@ -70,13 +70,13 @@ struct Incomplete {
 
 struct Rankings {
     PictureMetric quality;
-    std::vector<Ranking> rankings;  ///< those with a setting
+    std::vector<Ranking> rankings;  ///< each with one setting or more
     std::vector<Incomplete> incomplete;
 };
 
 [[nodiscard]] Rankings rankSettings(const MeasuredRuns& runs, const PictureMetric& quality);
 
-/// True if every value of the interval of `a` is better than every one of `b`.
+/// True if every value in the interval of `a` is better than every value in that of `b`.
 [[nodiscard]] bool isClearlyBetter(const MedianInterval& a, const MedianInterval& b, const PictureMetric& metric);
 [[nodiscard]] bool isBetter(double a, double b, const PictureMetric& metric);
 

@@ -171,7 +171,7 @@ std::string refusal(const Condition& condition) {
 TEST(MeasuredRuns, SayWhichConditionNoRunMeets) {
     EXPECT_THAT(refusal({"--where", "particels", {"500"}}), HasSubstr("did you mean 'particles'?"));
     EXPECT_THAT(refusal({"--where", "particles", {"700"}}),
-                HasSubstr("got particles=700, allowed: what was measured: 2000, 500"));
+                HasSubstr("got particles=700, allowed: measured values: 2000, 500"));
     EXPECT_EQ(refusal({"--light", "light", {"sun"}}), "--light: got 'sun', but 'summary.csv' has no setting 'light'");
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* groupId = "recommend";
 
-/// Stands for a setting in one world, so that the report finds what varies.
+/// A run that represents a setting in one world, from which the report finds the settings that vary.
 StoredRun standIn(const Ranking& ranking, const MeasuredSetting& setting, std::size_t index) {
     StoredRun run;
     run.runId = fmt::format("{:06}", index);
@@ -42,7 +42,7 @@ struct Drawn {
     const MeasuredSetting* setting;
 };
 
-/// What the report takes to be the same world although it is not.
+/// Adds a property in which rankings differ and which is not a setting of the world, as an axis of worlds.
 void addWorldAxis(RunGroup& group, const std::string& name, const std::vector<std::string>& valueOfCell) {
     const std::set<std::string> values(valueOfCell.begin(), valueOfCell.end());
     if (values.size() < 2) return;
@@ -59,7 +59,7 @@ void fillCells(RunGroup& group, const std::vector<Drawn>& drawn, const PictureMe
     for (ReportCell& cell : group.cells) {
         const auto& [ranking, setting] = drawn[std::stoul(cell.done.front()->runId)];
         cell.values = {{std::string(timeColumn), setting->ms}, {std::string(quality.column), setting->quality}};
-        // The report has charts of quality for runs that were judged, which have this column.
+        // The report only draws charts of quality for runs with this column.
         if (const auto flip = setting->metrics.find("flip"); flip != setting->metrics.end()) cell.values.insert(*flip);
         references.push_back(ranking->reference);
         machines.push_back(fmt::format("{}", ranking->machine + 1));
@@ -67,7 +67,7 @@ void fillCells(RunGroup& group, const std::vector<Drawn>& drawn, const PictureMe
     }
     addWorldAxis(group, "reference", references);
     addWorldAxis(group, "machine", machines);
-    addWorldAxis(group, "judged frames", lengths);
+    addWorldAxis(group, "compared frames", lengths);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The chart of quality against a method's own time, one panel for each ranking, with the Pareto front and the budget.
+// Draws the chart of quality against a method's own time: one panel for each ranking, with the Pareto front and the
+// budget.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +10,9 @@
 
 namespace dustbench::bench {
 
-/// Draws it into a .svg, .png or .pdf. Settings without a finite quality (pictures equal to the reference) have no
-/// place in it; returns how many those are. Throws InputError that begins with `what` for another ending, for rankings
-/// without a setting to draw, and if a program that draws is missing.
+/// Draws it into a .svg, .png or .pdf. Settings without a finite quality (pictures equal to the reference) are left
+/// out; returns their number. Throws InputError that begins with `what` for another ending, for rankings without a
+/// setting to draw, and if a drawing program is missing.
 std::size_t drawRecommendation(const Rankings& rankings, const MeasuredRuns& runs, const Budget& budget,
                                const std::filesystem::path& file, const std::string& what);
 

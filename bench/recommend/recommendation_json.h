@@ -1,4 +1,4 @@
-// A recommendation for programs: `dustbench recommend --json`.
+// A recommendation as JSON: `dustbench recommend --json`.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace dustbench::bench {
 
-/// One object, with a recommendation for each ranking, in their order. A quality that is not finite, of pictures that
-/// equal the reference, is null.
+/// One object with a recommendation for each ranking, in their order. A quality that is not finite, because the picture
+/// equals the reference, is null.
 [[nodiscard]] std::string recommendationJson(const Budget& budget, const MeasuredRuns& runs, const Rankings& rankings,
                                              const std::vector<Recommendation>& recommendations);
 

@@ -19,7 +19,7 @@ Rankings rank(const std::vector<TestRow>& rows) {
     return rankSettings(runsOf(rows), psnr);
 }
 
-/// `a` at a budget, or `none`.
+/// The answer at a budget, such as `a`, or `none`.
 std::string answerAt(const std::vector<TestRow>& rows, double budgetMs) {
     const Rankings rankings = rank(rows);
     if (rankings.rankings.size() != 1) return fmt::format("{} rankings", rankings.rankings.size());
@@ -27,7 +27,7 @@ std::string answerAt(const std::vector<TestRow>& rows, double budgetMs) {
     return answer ? rankings.rankings.front().settings[*answer].method : "none";
 }
 
-/// A picture from each of these seeds, in runs without times.
+/// Adds a run with metrics but without times for each of these values, each with its own seed.
 void addPictures(std::vector<TestRow>& rows, const std::string& method, const std::vector<double>& decibels) {
     int seed = 0;
     for (const double value : decibels)

@@ -1,4 +1,4 @@
-// For tests: a small summary.csv of rows written by hand.
+// For tests: a small summary.csv with rows written by hand.
 #pragma once
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ inline MeasuredRuns runsOf(const std::vector<TestRow>& rows) {
     return measuredRuns(files::CsvTable::parseText(tableOf(rows), "summary.csv"), "summary.csv");
 }
 
-/// Runs of one setting, a repetition for each time; the first has the picture.
+/// Runs of one setting, one repetition for each time. Only the first has metrics.
 inline void add(std::vector<TestRow>& rows, const std::string& method, const std::vector<double>& ms,
                 const std::string& psnr, int particles = 500) {
     for (std::size_t index = 0; index < ms.size(); ++index)

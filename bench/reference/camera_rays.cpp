@@ -16,7 +16,7 @@ CameraRays::CameraRays(const scene::View& view)
     const glm::dvec3 sight = camera.target - camera.eye;
     const double length = glm::length(sight);
     if (!std::isfinite(length) || !std::isfinite(glm::length(camera.up)) || !(limitY_ > 0) || !std::isfinite(limitX_))
-        throw std::invalid_argument("CameraRays: the camera's eye, target, up or field of view is no usable number");
+        throw std::invalid_argument("CameraRays: the camera's eye, target, up or field of view is not a valid number");
     if (length > 0) ahead_ = sight / length;
     // As in scene::View: `up` is not usable if the camera looks along it.
     glm::dvec3 right = glm::cross(ahead_, camera.up);

@@ -19,7 +19,7 @@ namespace dustbench::bench {
 namespace {
 
 constexpr double maximumSlabs = 4e6;  ///< per ray: limit of memory and time
-/// Share of the light from one slab below which it is skipped; it still attenuates what is behind.
+/// A slab is skipped if its share of the light is smaller; it still attenuates everything behind it.
 constexpr double minimumShare = 1e-9;
 
 /// A puff in one row.
@@ -41,7 +41,7 @@ struct Lighting {
     const SunLight& light;
     SunLattice depths;
 
-    /// Of light that goes on along a ray of this direction.
+    /// Sunlight scattered along a ray of this direction.
     [[nodiscard]] glm::dvec3 scattered(const glm::dvec3& direction) const {
         const double cosine = glm::dot(direction, glm::normalize(light.toSun));
         return light.sun / 4.0 *
@@ -116,13 +116,13 @@ class RayMarch {
         const double count = std::ceil((end - begin_) / slabMetres_);
         if (count > maximumSlabs)
             throw std::invalid_argument(
-                fmt::format("ground truth: slabs of {} m cut the {} m of a ray into more than {} parts", slabMetres_,
+                fmt::format("ground truth: slabs of {} m divide the {} m of a ray into more than {} parts", slabMetres_,
                             end - begin_, maximumSlabs));
         length_ = (end - begin_) / count;
         for (std::vector<double>* column : {&depths_, &reds_, &greens_, &blues_})
             column->assign(static_cast<std::size_t>(count), 0.0);
         for (const RayPuff& puff : puffs_) {
-            // From the first to the last slab that it covers; the tails beyond are added to these two.
+            // From the first to the last slab that the puff covers; the tails beyond are added to these two.
             const std::size_t first = slabOf(puff.begin), slabs = slabOf(puff.end) - first + 1;
             passed_.resize(slabs + 1);
             double* const passed = passed_.data();
@@ -158,14 +158,14 @@ class RayMarch {
     std::vector<RayPuff> puffs_;
     std::vector<double> depths_;                 ///< of each slab
     std::vector<double> reds_, greens_, blues_;  ///< weighted by depth
-    std::vector<double> passed_;                 ///< share of a puff before each face of its slabs, less a half
+    std::vector<double> passed_;                 ///< share of a puff in front of each face of its slabs, minus one half
 };
 
 glm::dvec3 checkedColour(const Puffs& store, std::size_t i) {
     const glm::dvec3 colour(store.colour(i));
     if (!std::isfinite(colour.r + colour.g + colour.b))
         throw std::runtime_error(
-            fmt::format("ground truth: particle {} has the colour ({}, {}, {}); finite numbers are needed",
+            fmt::format("ground truth: particle {} has the colour ({}, {}, {}), expected finite numbers",
                         store.serial[i], colour.r, colour.g, colour.b));
     return colour;
 }

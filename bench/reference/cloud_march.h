@@ -30,7 +30,7 @@ namespace dustbench::bench {
 /// scene::phaseFactor, and ϖ·ambient from the sky, which is not attenuated. Not included: multiple scattering, and
 /// shadows of ground, solids and vehicle in the dust.
 struct SunLight {
-    /// That of scene::dustLight, to be multiplied by colours that the dust has without light.
+    /// As scene::dustLight, to be multiplied by the colours that the dust has without light.
     [[nodiscard]] static SunLight of(const scene::Scene& scene);
 
     glm::dvec3 toSun{0, 1, 0};  ///< towards the sun, world

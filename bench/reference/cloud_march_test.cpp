@@ -172,7 +172,7 @@ TEST(LitParticles, EqualTheClosedFormsWithTheSunAlongTheRay) {
 }
 
 TEST(LitParticles, ScatterByTheAngleBetweenSightAndSun) {
-    // F = (1 − g²)/(1 + g² − 2g·cos)^1.5 multiplies what the sun adds: for g = ½: 6 at cos = 1, 2/9 at −1.
+    // F = (1 − g²)/(1 + g² − 2g·cos)^1.5 multiplies the sunlight: for g = ½, 6 at cos = 1 and 2/9 at −1.
     MemoryLedger ledger;
     ParticleStore store(ledger);
     test::add(store, {0, 0, 0}, 1, 0.5f);
@@ -191,7 +191,7 @@ TEST(LitParticles, ScatterByTheAngleBetweenSightAndSun) {
 }
 
 TEST(LitParticles, AreThoseOfTheSceneWithoutShadowAndPhase) {
-    // Thin dust that scatters to all sides alike has its colours: SunLight::of is scene::dustLight.
+    // Thin dust that scatters equally in all directions shows its own colours: SunLight::of is scene::dustLight.
     MemoryLedger ledger;
     ParticleStore store(ledger);
     test::add(store, {0, 0, 0}, 1, 1e-4f);
@@ -202,7 +202,7 @@ TEST(LitParticles, AreThoseOfTheSceneWithoutShadowAndPhase) {
     const glm::vec4 unlit = renderParticles(store, view, skyDistances(view)).image.at(20, 15);
     const glm::vec4 lit = renderLitParticles(store, view, skyDistances(view), SunLight::of(scene)).image.at(20, 15);
     for (int c = 0; c < 4; ++c) EXPECT_NEAR(lit[c] / unlit[c], 1, 1e-4f) << c;
-    // And with both: the colour times scene::dustLight of the puff's centre, where it is thin.
+    // With both, thin dust has the colour times scene::dustLight at the puff's centre.
     scene.dustAsymmetry = 0.6f;
     const float cosine = glm::dot(glm::vec3(0, 0, -1), scene.lights.toSun);
     const glm::vec4 phased = renderLitParticles(store, view, skyDistances(view), SunLight::of(scene)).image.at(20, 15);

@@ -20,8 +20,9 @@ struct DepthSum {
     std::int64_t evaluations = 0;  ///< computed pairs of puff and pixel
 };
 
-/// Below the exact sum by at most what `preparePuffs` neglects, plus 2e-9 of a puff's depth if the puff ends clear of
-/// eye and scene, plus 1e-10 of it from the error function. `distances` must fit the rays (checkDistances).
+/// Smaller than the exact sum by at most the depth that `preparePuffs` neglects, plus 2e-9 of a puff's depth for puffs
+/// that end clear of eye and scene, plus 1e-10 of it from the error function. `distances` must fit the rays
+/// (checkDistances).
 [[nodiscard]] DepthSum sumDepths(const std::vector<Puff>& puffs, const CameraRays& rays,
                                  const OpaqueDistances& distances);
 

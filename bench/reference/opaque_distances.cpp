@@ -27,7 +27,7 @@ OpaqueDistances distancesFromDepth(const scene::View& view, std::span<const floa
         const auto reversed = static_cast<double>(depth[i]);
         if (!(reversed >= 0 && reversed <= 1))
             throw std::invalid_argument(
-                fmt::format("distancesFromDepth: got the depth {}; reversed depths are 0 to 1", reversed));
+                fmt::format("distancesFromDepth: got the depth {}, expected a reversed depth 0..1", reversed));
         const double x = rays.columnSlope(static_cast<int>(i) % view.width);
         const double y = rays.rowSlope(static_cast<int>(i) / view.width);
         distances.metres[i] = reversed > 0 ? view.camera.nearMetres / reversed * std::sqrt(1 + x * x + y * y)

@@ -1,4 +1,4 @@
-// Ground truth: the exact picture of a cloud of puffs, independent of every method and of OpenGL.
+// Ground truth: the reference image of a cloud of puffs, independent of all methods and of OpenGL.
 //
 // Along a pixel's ray the puffs' optical depths are summed by the closed form (methods/kit/maths/transmittance.h), and
 // α = 1 − exp(−Σ). No marching, no sorting, no voxels.

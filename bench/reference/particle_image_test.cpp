@@ -24,7 +24,7 @@ struct Case {
 };
 
 /// Five random scenes: sky only; camera inside the cloud; puffs half in the ground; both, looking down; thick puffs
-/// around a camera that stands among walls.
+/// around a camera among walls.
 std::vector<Case> fiveScenes(MemoryLedger& ledger) {
     std::vector<Case> cases;
     const auto far = test::viewFrom({2, 3, 14}, {0, 1, 0});

@@ -18,8 +18,8 @@ void check(const Puffs& store, std::size_t i) {
                         std::isfinite(store.radius[i]) && std::isfinite(store.opacity[i]);
     if (finite && store.radius[i] >= 0 && store.opacity[i] >= 0 && store.opacity[i] < 1) return;
     throw std::runtime_error(
-        fmt::format("ground truth: particle {} is no puff: position ({}, {}, {}), radius {}, opacity {}; finite "
-                    "numbers, a radius of 0 or more and an opacity of 0 to below 1 are needed",
+        fmt::format("ground truth: particle {} is not a puff: position ({}, {}, {}), radius {}, opacity {}; allowed: "
+                    "finite numbers, a radius of 0 or more and an opacity of at least 0 and less than 1",
                     store.serial[i], store.x[i], store.y[i], store.z[i], store.radius[i], store.opacity[i]));
 }
 

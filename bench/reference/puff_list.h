@@ -1,5 +1,5 @@
-// The particles of a store prepared for the ground truth: validated Gaussians of extinction in the camera's frame, each
-// with its footprint.
+// Prepares the particles of a store for the ground truth: validates them and computes Gaussians of extinction in the
+// camera's frame, each with its footprint.
 //
 // Units: metres; optical depth has none. Frame: camera axes (see camera_rays.h). Threads: pure.
 #pragma once

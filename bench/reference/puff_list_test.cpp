@@ -21,7 +21,7 @@ scene::View smallView() {
     return view;
 }
 
-// The heart of it: what lies outside of a footprint is as small as promised, wherever the puff is.
+// The essential property: the depth outside a footprint is within its bound, wherever the puff is.
 TEST(PuffList, FootprintsLeaveOutNothingThatCounts) {
     const scene::View view = smallView();
     const CameraRays rays(view);
@@ -51,7 +51,7 @@ TEST(PuffList, FootprintsLeaveOutNothingThatCounts) {
             }
         }
     }
-    // They are footprints, not the whole image: most of the image is spared, and much is not.
+    // Footprints cover a large part of the image, but leave out most of it.
     EXPECT_GT(outside, 3 * inside);
     EXPECT_GT(inside, 20'000);
 }

@@ -1,8 +1,7 @@
-// The ground truth's images at 640×480: a trail like that of the default scene, seen as its chase camera sees it, with
-// a level ground, for both references; and from within the trail.
+// Cost of the ground truth at 640×480: a trail like that of the default scene over level ground, from its chase camera,
+// for both references; and from within the trail.
 //
-// What `particles` and `continuum` must reach on 2 cores: 1 s and 15 s; what lit dust of 3,000 puffs must at 320×240: 1
-// s.
+// Targets on 2 cores: 1 s for `particles`, 15 s for `continuum`, and 1 s for lit dust of 3,000 puffs at 320×240.
 #include <benchmark/benchmark.h>
 
 #include "bench/reference/cloud_march.h"
@@ -18,7 +17,7 @@ scene::View viewFrom(Place place) {
     scene::View view;
     view.width = 640;
     view.height = 480;
-    // The vehicle stands at the origin, its trail lies towards −X.
+    // The vehicle is at the origin; its trail extends towards −X.
     view.camera.eye = place == Place::chasing ? glm::dvec3(6.8, 2.5, 9.4) : glm::dvec3(-20, 1, 0.5);
     view.camera.target = place == Place::chasing ? glm::dvec3(-4.2, 1.2, 0) : glm::dvec3(-60, 1, 0);
     return view;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double nodesPerDeviation = 4;
 
-/// Weights of the nodes −1, 0, 1, 2 for a place `t` between 0 and 1: the cubic through all four.
+/// Weights of the nodes −1, 0, 1, 2 for a position `t` between 0 and 1: the cubic through all four.
 std::array<float, 4> cubicWeights(float t) {
     const float a = t + 1, b = t - 1, c = t - 2;
     return {-t * b * c / 6, a * b * c / 2, -a * t * c / 2, a * t * b / 6};
@@ -27,7 +27,7 @@ struct Profile {
     std::vector<float> values;
 };
 
-/// In cells from the origin of an axis: centre, standard deviation, reach.
+/// Centre, standard deviation and reach along an axis, in cells from its origin.
 struct Place {
     double centre, deviation, reach;
 
@@ -60,7 +60,7 @@ std::optional<SunLattice::Octave> SunLattice::latticeOf(const std::vector<Entry>
         low = glm::min(low, puff.centre - puff.reach);
         high = glm::max(high, puff.centre + puff.reach);
     }
-    // Two nodes more on each side, of no depth across the sun's direction, for the cubics to run out into.
+    // Two more nodes on each side, without depth across the sun's direction, as support of the cubics.
     const glm::dvec3 nodes = glm::ceil((high - low) / spacing) + 5.0;
     if (!(nodes.x * nodes.y * nodes.z <= static_cast<double>(maximumNodes))) return std::nullopt;
     return Octave{low - 2 * spacing, spacing, glm::ivec3(nodes), {}};
@@ -82,7 +82,7 @@ void SunLattice::fill(Octave& octave, const std::vector<Entry>& puffs) {
         for (std::size_t k = along.back().first(); k <= along.back().last(); ++k)
             ofLayer[k].push_back(static_cast<std::uint32_t>(along.size() - 1));
     }
-    // First what lies between a layer and the next one towards the sun.
+    // First the depth between each layer and the next one towards the sun.
     parallel::forEachBlock(ofLayer.size(), 1, [&](std::size_t w, std::size_t) {
         for (const std::uint32_t i : ofLayer[w]) {
             const auto between = static_cast<float>(puffs[i].depth * along[i].between(w));
@@ -95,7 +95,7 @@ void SunLattice::fill(Octave& octave, const std::vector<Entry>& puffs) {
             }
         }
     });
-    // Then the sums from the sun's side.
+    // Then the sums, starting at the side of the sun.
     parallel::forEachBlock(static_cast<std::size_t>(nodes.y), 1, [&](std::size_t y, std::size_t) {
         for (std::size_t w = ofLayer.size() - 1; w-- > 0;) {
             float* const here = octave.depths.data() + w * layer + y * row;
@@ -108,7 +108,7 @@ double SunLattice::Octave::at(const glm::dvec3& place) const {
     glm::dvec3 where = (place - origin) / spacing;
     if (where.x <= 1 || where.y <= 1 || where.x >= nodes.x - 2 || where.y >= nodes.y - 2 || where.z >= nodes.z - 2)
         return 0;
-    where.z = std::max(where.z, 1.0);  // behind all puffs the depth stays
+    where.z = std::max(where.z, 1.0);  // behind all puffs the depth is constant
     const glm::ivec3 base(where);
     const auto u = cubicWeights(static_cast<float>(where.x - base.x)),
                v = cubicWeights(static_cast<float>(where.y - base.y)),

@@ -1,9 +1,9 @@
-// The optical depth towards the sun at many points of a cloud: that of light::SunDepth, interpolated.
+// Interpolates the optical depth towards the sun (light::SunDepth) at many points of a cloud.
 //
-// Puffs are sorted by width, each octave of it into a lattice of its own, whose nodes are a quarter of its narrowest
-// puff's standard deviation apart or less. Nodes hold the closed form; between them the depth is interpolated by cubics
-// along the three axes, of fourth order: at this distance the error is below 1e-3 of a puff's own depth, and it
-// averages out where many overlap. An octave that would need more than `maximumNodes` keeps to the closed form.
+// Each octave of puff widths has its own lattice, with a node spacing of at most a quarter of the standard deviation of
+// its narrowest puff. Nodes store the closed form. Between them the depth is interpolated by cubics along the three
+// axes, which is of fourth order: at this spacing the error is below 1e-3 of a puff's own depth, and it averages out
+// where many puffs overlap. An octave that would need more than `maximumNodes` uses the closed form instead.
 //
 // Units: metres; depth has none. Frame: world. Owns: the lattices. Threads: the constructor uses the current oneTBB
 // arena, bit-identical at any number of threads; const access from any.
@@ -23,13 +23,13 @@ class SunLattice {
  public:
     static constexpr std::size_t defaultNodes = std::size_t{1} << 25;
 
-    /// Parameters as those of light::SunDepth; throws as it does. `spacingMetres`: most between nodes.
+    /// Parameters as for light::SunDepth; throws as it does. `spacingMetres`: maximum distance between nodes.
     SunLattice(const Puffs& store, const glm::dvec3& toSun, double opticalDepthShare, double neglected,
                double spacingMetres, std::size_t maximumNodes = defaultNodes);
 
     [[nodiscard]] double at(const glm::dvec3& position) const;
 
-    /// Of all lattices.
+    /// Number of nodes of all lattices.
     [[nodiscard]] std::size_t nodes() const;
 
  private:

@@ -29,7 +29,7 @@ std::string withoutQuick(std::string id) {
     return id;
 }
 
-/// The only id that equals `wanted` or ends in it, ignoring `-quick`.
+/// The only id that equals `wanted` or ends with it, ignoring `-quick`.
 std::string resolved(const ReportData& data, const std::string& wanted) {
     const std::vector<std::string> ids = chartIds(data);
     if (std::ranges::find(ids, wanted) != ids.end()) return wanted;
@@ -44,7 +44,7 @@ std::string resolved(const ReportData& data, const std::string& wanted) {
     throw unknownName("chart", wanted, ids);
 }
 
-/// The page shows the seeds of a cell as one.
+/// The page combines the seeds of a cell.
 std::size_t countWithoutSeeds(const RunGroup& group) {
     std::set<std::tuple<std::string, std::map<std::string, std::string, std::less<>>, std::size_t>> cells;
     for (const ReportCell& cell : group.cells) {
@@ -59,7 +59,7 @@ bool hasColumn(const RunGroup& group, std::string_view column) {
     return std::ranges::any_of(group.cells, [column](const ReportCell& cell) { return cell.values.contains(column); });
 }
 
-/// Suites that only the controls of claims need.
+/// Suites that are used only by the controls of claims.
 bool isOfControls(const ReportData& data, const RunGroup& group) {
     return std::ranges::any_of(data.papers, [&group](const Paper& paper) {
         return std::ranges::find(paper.controls, group.suite) != paper.controls.end() &&
@@ -67,7 +67,7 @@ bool isOfControls(const ReportData& data, const RunGroup& group) {
     });
 }
 
-/// As charts.js lists them: costs and metrics by columns.json, facts of methods.
+/// The same columns as in charts.js: costs and metrics from columns.json, facts of methods.
 bool hasCostChart(const RunGroup& group) {
     const auto isDrawn = [](const ReportCell& cell) { return !cell.values.empty(); };
     return std::ranges::any_of(group.cells, isDrawn) && countWithoutSeeds(group) > 1;

@@ -21,8 +21,8 @@ namespace dustbench::bench {
 namespace {
 
 constexpr int tileWidth = 400, gap = 12, margin = 20;
-constexpr int rowHeadingWidth = 160;  // at most, but for words
-constexpr int rowWordWidth = 300;     // of the longest word, at most
+constexpr int rowHeadingWidth = 160;  // maximum, unless a word is wider
+constexpr int rowWordWidth = 300;     // maximum, for wider words
 constexpr int barHeight = 22;
 constexpr Lettering plainText{28, false}, boldText{28, true}, titleText{33, true};
 
@@ -43,7 +43,7 @@ void requireThat(bool holds, const std::string& message) {
     if (!holds) throw std::invalid_argument("contact sheet: " + message);
 }
 
-/// What does not depend on the pictures. Returns the number of columns.
+/// Checks everything except the pictures. Returns the number of columns.
 std::size_t checkedColumns(const ContactSheet& sheet) {
     requireThat(!sheet.cells.empty() && !sheet.cells.front().empty(), "there are no cells");
     const std::size_t columns = sheet.cells.front().size(), rows = sheet.cells.size();
@@ -61,7 +61,7 @@ std::size_t checkedColumns(const ContactSheet& sheet) {
     return columns;
 }
 
-/// Height of a picture at the tiles' width. All agree within half a pixel.
+/// Height of the pictures at the tiles' width. All heights agree to within half a pixel.
 int checkedTileHeight(const ContactSheet& sheet) {
     std::optional<double> height;
     std::string first;
@@ -86,7 +86,7 @@ int checkedTileHeight(const ContactSheet& sheet) {
     return static_cast<int>(std::lround(std::clamp(*height, 1.0, 1e8)));
 }
 
-/// Clamped, and opaque to the bit.
+/// Clamped, with an alpha of exactly 1.
 pictures::Image asShown(pictures::Image image) {
     for (glm::vec4& pixel : image.pixels) pixel = glm::vec4(glm::clamp(glm::vec3(pixel), 0.0f, 1.0f), 1);
     return image;
@@ -117,7 +117,7 @@ double widestWord(const std::string& text, const Lettering& lettering) {
     return widest;
 }
 
-/// Fills the sheet from the top.
+/// Writes the sheet from top to bottom.
 class SheetWriter {
  public:
     explicit SheetWriter(const ContactSheet& sheet)
@@ -153,7 +153,7 @@ class SheetWriter {
     }
     [[nodiscard]] int right() const { return columnX(columns_ - 1) + tileWidth; }
 
-    /// Of tiles alone, before anything is encoded.
+    /// Checks the size of the tiles before anything is encoded.
     void requireRoom() const {
         const double width = static_cast<double>(columns_) * (tileWidth + gap) + gridX_ + margin;
         const double height =
@@ -173,7 +173,7 @@ class SheetWriter {
                        x, y, image.width, image.height, dataUrl("image/png", pictures::encodedPng(image)));
     }
 
-    /// `anchor` is start, middle or end: what of each line is at `x`. `y` is the top of the first line.
+    /// `anchor` is start, middle or end: the part of each line that is at `x`. `y` is the top of the first line.
     void writeText(const Lines& lines, int x, int y, const char* anchor, const Lettering& lettering) {
         for (const std::string& line : lines) {
             fmt::format_to(std::back_inserter(body_),
@@ -207,7 +207,7 @@ class SheetWriter {
     void writeRow(std::size_t row) {
         int tallest = tileHeight_;
         if (!rowHeadings_.empty()) {
-            // Beside a flat picture the heading may be the taller one; it never starts above the row.
+            // A heading may be taller than a wide picture; it never starts above the row.
             const int height = heightOf(rowHeadings_[row], plainText);
             writeText(rowHeadings_[row], margin, y_ + std::max(0, (tileHeight_ - height) / 2), "start", plainText);
             tallest = std::max(tallest, height);
@@ -218,7 +218,7 @@ class SheetWriter {
             const std::string name = cellName(sheet_, row, column);
             requireFinite(cell->picture, name);
             requireOpaque(cell->picture, name);
-            // Clamped before resampling, so that values far above white do not spread; after, for rounding errors.
+            // Clamped before resampling, so that values far above white do not spread, and again for rounding errors.
             writeImage(asShown(resampled(asShown(cell->picture), tileWidth, tileHeight_)), columnX(column), y_);
             const Lines caption = linesOf(cell->caption, tileWidth, plainText);
             const int captionY = y_ + tileHeight_ + gap / 3;
@@ -228,7 +228,7 @@ class SheetWriter {
         y_ += tallest + gap;
     }
 
-    /// The bar, and below it `minimum label maximum`.
+    /// Writes the bar, and below it `minimum label maximum`.
     void writeScale(const SheetScale& scale) {
         y_ += 2 * gap;
         const int middle = (gridX_ + right()) / 2, left = middle - tileWidth / 2;

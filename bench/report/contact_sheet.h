@@ -1,6 +1,6 @@
 // A contact sheet: pictures in a grid with headings, captions and a colour bar, for use as a figure in a paper.
 //
-// White paper, dark grey text in DejaVu Sans; text too wide for its column is broken into lines (text_lines.h).
+// White background, dark grey text in DejaVu Sans. Text wider than its column is broken into lines (text_lines.h).
 // Pictures are shown as on a display (clamped to [0, 1]), resampled in linear light to tiles 400 pixels wide.
 //
 // Units: pixels. Printed 17 cm wide, five columns have captions of 6 points. Threads: pure.
@@ -16,7 +16,7 @@ namespace dustbench::bench {
 
 struct SheetCell {
     pictures::Image picture;  ///< linear, opaque
-    std::string caption;      ///< below it, may be empty. Two spaces mark the preferred line break
+    std::string caption;      ///< below the picture; may be empty. Two spaces mark the preferred line break
 };
 
 /// A bar with heatColour() from left to right: the scale of heatMap(…, minimum, maximum).
@@ -34,12 +34,12 @@ struct ContactSheet {
     std::optional<SheetScale> scale;
 };
 
-/// The sheet as SVG, its pictures embedded as PNG. Texts may hold any bytes (printable() is applied).
-/// Throws InputError for pictures of different aspect, non-finite or not opaque (with row and column), and for a sheet
-/// of over `maximumSheetSide`; std::invalid_argument for ragged or no cells, a number of headings that differs from
-/// that of columns or rows, and a scale without extent.
+/// The sheet as SVG with its pictures embedded as PNG. Texts may contain any bytes (printable() is applied).
+/// Throws InputError, with row and column, for pictures that differ in aspect ratio, are not finite or not opaque, and
+/// for a sheet larger than `maximumSheetSide`. Throws std::invalid_argument if there are no cells, rows differ in
+/// length, the number of headings differs from that of columns or rows, or the scale is empty.
 [[nodiscard]] std::string contactSheetSvg(const ContactSheet& sheet);
 
-inline constexpr int maximumSheetSide = 32'767;  ///< of what rsvg-convert draws
+inline constexpr int maximumSheetSide = 32'767;  ///< limit of rsvg-convert
 
 }  // namespace dustbench::bench

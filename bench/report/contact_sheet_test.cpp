@@ -1,4 +1,4 @@
-// What the sheet's SVG holds, and what rsvg-convert makes of it.
+// The contents of the sheet's SVG, and the picture that rsvg-convert makes from it.
 #include "bench/report/contact_sheet.h"
 
 #include <gmock/gmock.h>
@@ -31,7 +31,7 @@ pictures::Image plainPicture(int width, int height, glm::vec3 colour) {
     return imageOf(width, height, [colour](int, int, int c) { return static_cast<double>(colour[c]); });
 }
 
-/// Waves whose phase tells the pictures apart.
+/// Waves whose phase identifies the picture.
 pictures::Image wavyPicture(int width, int height, int number) {
     return imageOf(width, height, [number](int x, int y, int c) {
         return 0.45 + 0.4 * std::sin(0.11 * x + 0.07 * y + 1.3 * number + 0.6 * c);
@@ -59,7 +59,7 @@ struct Box {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// Of the pictures, in the order of the file; the last is the scale's bar if there is one.
+/// Places of the pictures, in the order of the file. The last is the scale's bar if there is one.
 std::vector<Box> picturesOf(const std::string& svg) {
     static const std::regex pattern("<image x=\"(\\d+)\" y=\"(\\d+)\" width=\"(\\d+)\" height=\"(\\d+)\"");
     std::vector<Box> boxes;
@@ -126,7 +126,7 @@ TEST(ContactSheet, ShowsEveryPictureInItsPlaceToTheBit) {
 
 TEST(ContactSheet, ShowsPicturesAsADisplayDoes) {
     ContactSheet sheet;
-    // A stripe far above white, as the sun is, and one below black; once of the tile's own size, once twice as large.
+    // A stripe far above white, such as the sun, and one below black; once in the tile's size, once twice as large.
     for (const int width : {400, 800}) {
         const auto stripes = imageOf(width, width / 2, [&](int x, int, int) {
             return x < width / 3 ? 50.0 : x < 2 * width / 3 ? 0.25 : -3.0;
@@ -165,7 +165,7 @@ TEST(ContactSheet, KeepsTextBesidesPicturesAndInItsColumnHoweverLongItIs) {
                       0)
                 << caption << " beside column " << column;
         EXPECT_EQ(inkedPixels(image, {0, 0, margin - 1, image.height}), 0);
-        // Each picture is whole: what is written over it would differ from it.
+        // Each picture is complete: nothing is drawn over it.
         const pictures::Image tile = resampled(sheet.cells[1][1]->picture, 400, 300);
         for (int y = 0; y < 300; ++y)
             for (int x = 0; x < 400; ++x)

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A run.json of a run that is done, with these cells of its summary and this warning.
+/// The run.json of a completed run, with these fields of its summary and this warning.
 std::string runJson(const std::string& id, const std::string& cells, const std::string& warning = "slow") {
     return fmt::format(
         R"({{"run_id": "{}", "status": "done", "reason": "", "parameters": {{}}, "summary": {{"method": "haze", {}}},

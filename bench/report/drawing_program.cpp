@@ -20,7 +20,7 @@ fs::path findProgram(const std::string& name, const std::string& package) {
     std::istringstream folders(path ? path : "");
     for (std::string folder; std::getline(folders, folder, ':');)
         if (fs::is_regular_file(fs::path(folder) / name)) return fs::path(folder) / name;
-    throw InputError(fmt::format("drawing a file needs '{}', which is not installed; Debian has it in the package {}",
+    throw InputError(fmt::format("drawing a file needs '{}', which is not installed; on Debian, install the package {}",
                                  name, package));
 }
 
@@ -33,7 +33,7 @@ void callDrawingProgram(std::vector<std::string> argv, const std::string& packag
 }
 
 void convertSvg(const fs::path& svg, const std::string& format, int zoom, const fs::path& file, const fs::path& log) {
-    // `--unlimited`: embedded pictures are longer than libxml2 takes an attribute of a stranger's file to be.
+    // `--unlimited`: embedded pictures exceed libxml2's default limit for attributes.
     std::vector<std::string> convert{"rsvg-convert", "--unlimited", "--format", format};
     if (format == "png")
         convert.insert(convert.end(), {"--zoom", fmt::format("{}", zoom), "--background-color", "white"});

@@ -1,4 +1,4 @@
-// Programs that draw the report's files: node and rsvg-convert.
+// Calls the programs that draw the report's files: node and rsvg-convert.
 //
 // Threads: the main thread, as runChild().
 #pragma once
@@ -9,8 +9,8 @@
 
 namespace dustbench::bench {
 
-/// `argv[0]` is the name of a program on the PATH. Its stderr goes to `log`. Throws InputError with the Debian package
-/// if it is not installed, and if it fails.
+/// `argv[0]` is the name of a program on the PATH. Its stderr is written to `log`. Throws InputError if it fails, or
+/// with the name of the Debian package if it is not installed.
 void callDrawingProgram(std::vector<std::string> argv, const std::string& package, const std::filesystem::path& log);
 
 /// `format` is png or pdf; a .png has `zoom` pixels per pixel of the SVG.

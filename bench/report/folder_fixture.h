@@ -1,4 +1,4 @@
-// For tests: an empty folder that goes with the object, and the problems of a report as one text.
+// For tests: an empty folder that is removed with its object, and the problems of a report as one text.
 #pragma once
 
 #include <fmt/format.h>

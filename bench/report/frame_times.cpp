@@ -82,7 +82,7 @@ void readFrameTimes(const std::filesystem::path& folder, ReportData& data) {
     }
     if (unread > 0)
         data.problems.push_back(
-            fmt::format("frame times of {} runs cannot be read, the first: {}", unread, firstFault));
+            fmt::format("frame times of {} runs cannot be read; the first error: {}", unread, firstFault));
 }
 
 }  // namespace dustbench::bench

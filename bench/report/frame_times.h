@@ -14,8 +14,8 @@ inline constexpr std::size_t minimumBins = 8, maximumBins = 40;  // of a histogr
 /// Condenses all frames; the caller sets `label` and ids. Bins have equal width from the minimum to the maximum.
 [[nodiscard]] FrameTimes condense(const std::vector<double>& frameMs);
 
-/// Reads the first repetition of each cell, an even selection if there are too many. Unreadable files are reported in
-/// the data's problems.
+/// Reads the first repetition of each cell, or of evenly spread cells if there are too many. Unreadable files are
+/// reported in the data's problems.
 void readFrameTimes(const std::filesystem::path& folder, ReportData& data);
 
 }  // namespace dustbench::bench

@@ -15,7 +15,7 @@ json rounded(double value, int digits) {
     return number ? json(*number) : json(nullptr);
 }
 
-/// A number of a claim, which may be a whole number that is to be met exactly.
+/// A number of a claim, with more digits, because it may be an integer that must be met exactly.
 json claimNumber(double value) {
     return rounded(value, 10);
 }
@@ -26,7 +26,7 @@ json claimCellJson(const ClaimCell& cell) {
             {"turns", cell.turns},          {"verdict", verdictName(cell.verdict)}};
 }
 
-/// The rule in parts, from which the page makes sentences with names and units.
+/// The parts of the rule, from which the page makes sentences with names and units.
 json ruleJson(const Rule& rule) {
     return {{"quantity", quantityWords.wordOf(rule.quantity)},
             {"experiment", rule.experiment},

@@ -1,4 +1,4 @@
-// Pieces of JSON that the pages share. For sources that write JSON alone.
+// Pieces of JSON that the pages share. Include it only in sources that write JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,7 +8,7 @@
 
 namespace dustbench::bench {
 
-/// Six digits are more than any chart shows, and keep a page small; null if not finite.
+/// Rounded to six digits, which is more than any chart shows and keeps a page small; null if not finite.
 [[nodiscard]] nlohmann::json number(double value);
 
 /// A claim with its rule and its result, without its runs.

@@ -1,8 +1,8 @@
-// The median of a few repetitions with a confidence interval.
+// The median of a few repetitions, with a confidence interval.
 //
-// Each value lies below the true median with probability 1/2, whatever the distribution, so the median lies between the
+// Each value is below the true median with probability 1/2, whatever the distribution. So the median is between the
 // order statistics x(j) and x(n+1−j) with probability 1 − 2·Σ_{i<j} C(n, i)/2ⁿ. The maximum j that reaches 95 % is
-// used; below 6 values even the whole range has less, and is returned with its probability. Threads: pure.
+// used. For fewer than 6 values even the whole range has less; it is returned with its probability. Threads: pure.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +16,10 @@ struct MedianInterval {
     double low = std::numeric_limits<double>::quiet_NaN();
     double high = std::numeric_limits<double>::quiet_NaN();
     std::size_t values = 0;
-    double probability = 0;  ///< that the true median lies in the interval; 0 for one value
+    double probability = 0;  ///< that the interval contains the true median; 0 for one value
 };
 
-/// NaN for no values.
+/// NaN if there are no values.
 [[nodiscard]] MedianInterval medianInterval(std::vector<double> values);
 
 }  // namespace dustbench::bench

@@ -19,7 +19,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Runs that suites plan, by what a row and a plan both say in the same words.
+/// Planned runs of suites by a key that can also be made from a row.
 using PlannedByKey = std::map<std::string, std::map<std::string, RunSpec>>;
 
 std::string keyOfSpec(const RunSpec& spec) {
@@ -42,7 +42,7 @@ bool isEqual(const std::string& a, const std::string& b) {
     return a == b || (x && y && *x == *y);
 }
 
-/// Everything that the suites of this build plan with as many repetitions as the rows have.
+/// The runs of all suites of this build, with as many repetitions as in the rows.
 PlannedByKey plannedRuns(const StoredRuns& runs) {
     int repetitions = 1;
     for (const auto& [id, run] : runs)
@@ -62,7 +62,7 @@ PlannedByKey plannedRuns(const StoredRuns& runs) {
     return planned;
 }
 
-/// The parameters that the row lacks; empty if the row is another run than the planned one.
+/// The parameters that are missing in the row; nullopt if the row is not the planned run.
 std::optional<std::set<std::string>> missingIn(const StoredRun& run, const RunSpec& spec) {
     const auto differs = [&run](std::string_view column, const std::string& wanted) {
         const std::string said = cellIn(run, column);
@@ -100,7 +100,7 @@ void adoptOlderRows(StoredRuns& runs, std::vector<std::string>& problems) {
                 fitting.insert(plannedId);
                 missing = *lacks;
             }
-        // Two runs that differ in what a row does not say: which of them it was cannot be told.
+        // If the row fits two planned runs that differ only in missing parameters, it cannot be assigned.
         if (fitting.size() != 1 || missing.empty() || runs.contains(*fitting.begin()) ||
             !taken.insert(*fitting.begin()).second)
             continue;
@@ -115,9 +115,8 @@ void adoptOlderRows(StoredRuns& runs, std::vector<std::string>& problems) {
     }
     if (!renamed.empty())
         problems.push_back(
-            fmt::format("{} of {} runs are of an older build, without the parameters {}: they stand where suites have "
-                        "these at their "
-                        "defaults",
+            fmt::format("{} of {} runs are of an older build without the parameters {}: they are shown as runs with "
+                        "the defaults of these",
                         renamed.size(), runs.size(), fmt::join(added, ", ")));
 }
 

@@ -1,7 +1,7 @@
-// Rows of an older build's summary.csv, under the ids that this build gives their runs.
+// Gives the rows of an older build's summary.csv the ids of this build.
 //
-// A parameter that was added since changes the id of every run of its method (reports/SCHEMA.md, Names). Where the
-// suite has the parameter at its default, the run is the same one. For tables alone: runs in a folder keep their ids.
+// A new parameter changes the id of every run of its method (reports/SCHEMA.md, Names). If the suite has the parameter
+// at its default, the run is still the same. Only for tables: runs in a folder keep their ids.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace dustbench::bench {
 
-/// Renames runs that no suite has and that are one cell of a suite in all that they say; what they do not say must be
-/// at its default there. A sentence in `problems` tells how many, and which parameters are new.
+/// Renames runs that belong to no suite but match exactly one run of a suite in all their fields. Parameters that they
+/// lack must be at their defaults there. Adds a sentence to `problems` with the number of runs and the new parameters.
 void adoptOlderRows(StoredRuns& runs, std::vector<std::string>& problems);
 
 }  // namespace dustbench::bench

@@ -8,7 +8,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// The row that a planned run leaves in summary.csv, under an id of another build.
+/// The row of a planned run in summary.csv, with an id of another build.
 StoredRun rowOf(const RunSpec& spec) {
     StoredRun run;
     run.runId = "of-an-older-build";
@@ -25,7 +25,7 @@ StoredRun rowOf(const RunSpec& spec) {
     return run;
 }
 
-/// The id that it gets.
+/// The id that the row gets.
 std::string adopted(const StoredRun& row) {
     StoredRuns runs{{row.runId, row}};
     std::vector<std::string> problems;

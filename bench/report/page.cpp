@@ -33,7 +33,7 @@ std::filesystem::path writePage(const std::filesystem::path& folder, const Repor
     requireOwnPage(folder);
     const std::filesystem::path file = folder / "index.html";
     writeWhole(file, pageOf(data));
-    // Of tables alone, which are kept as they were measured, the verdicts too.
+    // A folder of tables alone keeps its claims.csv, with the verdicts from when it was measured.
     if (!data.claims.empty() && !(data.tablesOnly && std::filesystem::exists(folder / "claims.csv")))
         writeWhole(folder / "claims.csv", claimsCsv(data.claims));
     return file;

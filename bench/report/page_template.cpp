@@ -49,7 +49,7 @@ void requireOwnPage(const std::filesystem::path& folder, std::string_view name) 
         files::wholeText(file, "a report of dustbench, to be replaced", files::limits::geometryBytes);
     if (there.find(mark) == std::string::npos)
         throw InputError(
-            fmt::format("'{}': exists and was not written by dustbench; move it away first", file.string()));
+            fmt::format("'{}' exists and was not written by dustbench; move it away first", file.string()));
 }
 
 }  // namespace dustbench::bench

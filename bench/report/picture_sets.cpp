@@ -20,7 +20,7 @@ struct FramePictures {
     bool reference = false, difference = false;
 };
 
-/// Frames of which the run has a picture.
+/// Frames of which the run has pictures.
 std::map<int, FramePictures> framesIn(const fs::path& images) {
     static const std::regex name("f(\\d{6,9})(_reference|_difference)?\\.png");
     std::map<int, FramePictures> frames;
@@ -42,7 +42,7 @@ std::map<int, FramePictures> framesIn(const fs::path& images) {
 
 using MetricsByFrame = std::map<int, PictureNumbers>;
 
-/// What metrics.csv says of each judged frame; empty if the run was not judged, or the file is damaged.
+/// The metrics of each frame in metrics.csv; empty if the run has no metrics or the file is damaged.
 MetricsByFrame metricsOf(const fs::path& run) {
     MetricsByFrame byFrame;
     if (!fs::exists(run / "metrics.csv")) return byFrame;
@@ -79,7 +79,7 @@ class Collector {
             PictureSet& set = setOf(group.id, worldLabel(group, cell), frame);
             const std::string start = fmt::format("{}f{:06}", relative, frame);
             if (has.reference) {
-                // The exact picture is common to all methods; a finer setting is specific to its method.
+                // The ground truth is common to all methods; a finer setting is specific to its method.
                 const std::string name = isExact ? "exact" : "reference of " + label;
                 if (std::ranges::find(set.pictures, name, &ReportPicture::label) == set.pictures.end())
                     set.pictures.push_back({name, isExact ? "" : cell.method, false, start + "_reference.png", {}});
@@ -89,7 +89,7 @@ class Collector {
         }
     }
 
-    /// Puts as many pictures into the report as its limit allows; the others stay links.
+    /// Embeds as many pictures as the limit allows; the others stay links.
     void embedAll() {
         for (PictureSet* set : byImportance()) {
             std::vector<ReportPicture> readable;
@@ -101,7 +101,7 @@ class Collector {
 
     void noteMissing() const {
         if (missing_ > 0)
-            data_.problems.push_back(fmt::format("the pictures of {} {} are missing, the first in {}", missing_,
+            data_.problems.push_back(fmt::format("the pictures of {} {} are missing, first in {}", missing_,
                                                  missing_ == 1 ? "run" : "runs", firstMissing_));
     }
 
@@ -120,7 +120,7 @@ class Collector {
         return worst;
     }
 
-    /// The worst set of every group first, which the viewer opens on, then all others as they are.
+    /// The worst set of every group first, because the viewer opens with it, then all others in order.
     [[nodiscard]] std::vector<PictureSet*> byImportance() const {
         std::map<std::string, PictureSet*> worst;
         for (PictureSet& set : data_.pictureSets)

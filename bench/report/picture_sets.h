@@ -1,4 +1,4 @@
-// Collects the pictures of a folder's judged and pictured runs, side by side for each world and frame.
+// Collects the pictures of a folder's runs, grouped by world and frame.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace dustbench::bench {
 
-/// Pictures are embedded as they are or as JPEG, whichever is smaller, up to `maximumBytes` in total, beginning with
-/// the worst moment of every group by FLIP; the rest are linked by their path in the folder. Unreadable files are
+/// Pictures are embedded unchanged or as JPEG, whichever is smaller, up to `maximumBytes` in total, beginning with the
+/// moment of every group with the highest FLIP. The others are linked by their path in the folder. Unreadable files are
 /// reported in the data's problems.
 void collectPictures(const std::filesystem::path& folder, std::int64_t maximumBytes, ReportData& data);
 

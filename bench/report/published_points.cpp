@@ -26,10 +26,10 @@ namespace {
 using files::CsvTable;
 using files::numberOf;
 
-/// A suite in its whole form, as the check needs it.
+/// A suite with all of its configurations, as the checks need it.
 struct ChartOfSuite {
     Suite suite;
-    std::vector<Axis> axes;  ///< all that varies, but seeds, which are draws and not settings
+    std::vector<Axis> axes;  ///< everything that varies except seeds, which are not settings
 };
 
 class PublishedReader {
@@ -60,7 +60,7 @@ class PublishedReader {
                  .insert(fmt::format("{}\n{}\n{}\n{}\n{}", chart.suite.id, fmt::join(series, "\n"), point.axis, point.x,
                                      point.column))
                  .second)
-            fail("of", cell("of"), "a series that has no number at this place yet");
+            fail("of", cell("of"), "a series without another number at this place");
         requireSameAsPrinted(point);
         return point;
     }
@@ -85,11 +85,11 @@ class PublishedReader {
             std::erase_if(chart.axes, [](const Axis& axis) { return axis.name == "seed"; });
         }
         if (chart.axes.empty() && chart.suite.cells.size() < 2)
-            fail("suite", id, "a suite with a chart, which takes two cells or more");
+            fail("suite", id, "a suite with a chart, which needs two configurations or more");
         return chart;
     }
 
-    /// The one on which the chart opens, or its reciprocal: else the number would be on a chart that nobody sees.
+    /// The column with which the chart opens, or its reciprocal: otherwise nobody would see the number.
     [[nodiscard]] std::string readColumn(const ChartOfSuite& chart) const {
         const std::string& name = cell("column");
         const bool isTimed = std::ranges::any_of(chart.suite.cells, [](const auto& run) { return run.spec.timed; });
@@ -98,7 +98,7 @@ class PublishedReader {
         if (opens == "fps_avg" || opens == "frame_ms_median") allowed = {"fps_avg", "frame_ms_median"};
         if (!isTimed) std::erase_if(allowed, [](const std::string& column) { return dependsOnSpeed(column); });
         if (!allowed.contains(name))
-            fail("column", name, fmt::format("{}: what the chart of the suite shows", fmt::join(allowed, ", ")));
+            fail("column", name, fmt::format("{}: the column of the suite's chart", fmt::join(allowed, ", ")));
         if (const std::string unit = unitOf(name); cell("unit") != unit)
             fail("unit", cell("unit"), fmt::format("{}, the unit of {}", unit, name));
         return name;
@@ -132,7 +132,7 @@ class PublishedReader {
             for (const auto& [each, values] : loads) names.push_back(each);
             fail("axis", name,
                  names.empty() ? std::string("nothing: the suite has no load")
-                               : fmt::format("{}: what the chart of the suite is against", fmt::join(names, ", ")));
+                               : fmt::format("{}: the axis of the suite's chart", fmt::join(names, ", ")));
         }
         const auto [low, high] = std::ranges::minmax(found->second);
         const double x = table_.number(row_, "x");
@@ -140,7 +140,7 @@ class PublishedReader {
         return x;
     }
 
-    /// Labels of the series that the selection finds: one, unless the paper states no load.
+    /// Labels of the selected series: exactly one, unless the paper states no load.
     [[nodiscard]] std::vector<std::string> readSeries(const ChartOfSuite& chart, const PublishedPoint& point) const {
         std::vector<Axis> rest = chart.axes;
         std::erase_if(rest, [&point](const Axis& axis) { return axis.name == point.axis; });
@@ -176,7 +176,7 @@ class PublishedReader {
         return a == b || (x && y && *x == *y);
     }
 
-    /// numbers.csv may hold the same number: then it is the same.
+    /// If numbers.csv contains the same quantity, its value must be the same.
     void requireSameAsPrinted(const PublishedPoint& point) const {
         if (!numbers_) return;
         Selection own = point.of;

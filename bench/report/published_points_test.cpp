@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// A paper with charts against a load, of bars, of bytes without times, and a suite of one cell.
+/// A paper with a chart against a load, a chart of bars, a chart of bytes without times, and a suite with one
+/// configuration.
 class Published : public testing::Test {
  protected:
     void SetUp() override {
@@ -89,7 +90,7 @@ TEST_F(Published, ARowWithoutAPlaceIsAnErrorThatNamesIt) {
     } faults[] = {
         {"mud-lods,billboard sort=none,particles,200,fps_avg,frames/s,4,4" + end,
          {"suite: got 'mud-lods'", "mud-loads"}},
-        {"mud-single,billboard,,,fps_avg,frames/s,4,4" + end, {"suite: got 'mud-single'", "two cells"}},
+        {"mud-single,billboard,,,fps_avg,frames/s,4,4" + end, {"suite: got 'mud-single'", "two configurations"}},
         {"mud-loads,billboard sort=none,p.particles,200,fps_avg,frames/s,4,4" + end,
          {"axis: got 'p.particles'", "allowed: particles"}},
         {"mud-loads,billboard,sort,1,fps_avg,frames/s,4,4" + end, {"axis: got 'sort'", "allowed: particles"}},
@@ -106,7 +107,8 @@ TEST_F(Published, ARowWithoutAPlaceIsAnErrorThatNamesIt) {
         {"mud-loads,billboard sort=quicksort,particles,200,fps_avg,frames/s,4,4" + end,
          {"of: got 'billboard sort=quicksort'", "billboard sort=radix"}},
         {"mud-loads,billboard,particles,200,fps_avg,frames/s,4,4" + end, {"of: got 'billboard (2 series)'", "one of"}},
-        {"mud-loads,billboard sort=none,particles,100,fps_avg,frames/s,28,28" + end, {"no number at this place yet"}},
+        {"mud-loads,billboard sort=none,particles,100,fps_avg,frames/s,28,28" + end,
+         {"without another number at this place"}},
         {"mud-loads,billboard sort=none,particles,200,fps_avg,frames/s,5,4" + end, {"max: got '4'", "5 and above"}},
         {"mud-loads,billboard sort=none,particles,200,fps_avg,frames/s,4,4,a PC,it", {"hardware: got 'a PC'", "year"}},
     };
@@ -157,7 +159,7 @@ TEST(PublishedNumbers, OfEveryPaperHaveTheirPlaces) {
     EXPECT_GE(numbers, 13u);
 }
 
-/// The thesis's own file with one text in place of another.
+/// The thesis's file with one text replaced by another.
 TEST(PublishedNumbers, OfTheThesisAreHeldToItsSuites) {
     const Folder folder;
     const fs::path thesis = files::dataFolder() / "papers" / "plugin-thesis";

@@ -1,4 +1,4 @@
-// The data shown by the report of a results folder, passed from the readers to the writers.
+// The data of a results folder's report, passed from the readers to the writers.
 //
 // Units: as the columns of summary.csv. Threads: plain data.
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace dustbench::bench {
 
-/// A parameter or setting that varies between the cells of an experiment.
+/// A parameter or setting that varies between the configurations of an experiment.
 struct ReportAxis {
     std::string name;  ///< `particles`, `scene`, `size`
     std::string unit;
@@ -27,7 +27,7 @@ struct ReportAxis {
     std::vector<std::string> values;  ///< ascending
 };
 
-/// All runs that are equal in everything except the repetition, on one machine.
+/// All runs of one configuration on one machine. They differ only in the repetition.
 struct ReportCell {
     std::string method;
     std::map<std::string, std::string, std::less<>> settings;  ///< by axis, if the method has it
@@ -37,7 +37,7 @@ struct ReportCell {
     std::map<std::string, MedianInterval, std::less<>> values;  ///< by column of summary.csv
 };
 
-/// ms = a + b·N^k through the runs of cells that differ only in the load N.
+/// A fit ms = a + b·N^k of the runs of cells that differ only in the load N.
 struct ReportFit {
     std::string axis, column, method;
     std::map<std::string, std::string, std::less<>> settings;  ///< without that of `axis`
@@ -45,7 +45,7 @@ struct ReportFit {
     CostFit fit;
 };
 
-/// A number given in a paper's text.
+/// A number stated in a paper's text.
 struct PublishedPoint {
     Selection of;      ///< the series it belongs to
     std::string axis;  ///< with x; empty: the paper states no load
@@ -53,17 +53,17 @@ struct PublishedPoint {
     std::string column;
     double minimum = 0, maximum = 0;
     std::string hardware;  ///< and its year
-    std::string what;      ///< what was measured
+    std::string what;      ///< description
     /// Its series within a group of runs: the method, and the values of axes that `of` names.
     std::string method{};
     std::map<std::string, std::string, std::less<>> settings{};
 };
 
 struct RunGroup {
-    std::string id;  ///< id of its suite, with `-quick` for the short form; or `other`
+    std::string id;  ///< id of its suite, with `-quick` for the quick run; or `other`
     std::string suite, title, summary, paper;
     std::string suiteText;  ///< the suite's file
-    ChartView chart;        ///< what its chart opens on
+    ChartView chart;        ///< initial view of its chart
     /// Settings of the world that all runs share: `size`, `frames`, `speed`.
     std::map<std::string, std::string, std::less<>> common;
     std::vector<ComparisonResult> comparisons;
@@ -90,7 +90,7 @@ using PictureNumbers = std::map<std::string, double, std::less<>>;
 /// One picture of a run, as shown on the page.
 struct ReportPicture {
     std::string label;   ///< `billboard soft=on`, `exact`
-    std::string method;  ///< empty for the exact one
+    std::string method;  ///< empty for the ground truth
     bool difference = false;
     std::string source;  ///< data URL, or path relative to the page
     PictureNumbers numbers;
@@ -114,15 +114,15 @@ struct RunWarnings {
     std::vector<std::string> runs;
 };
 
-/// Move, do not copy: experiments point into `runs`.
+/// Move, do not copy: experiments contain pointers into `runs`.
 struct ReportData {
     std::string folder;       ///< its name, for the title
     std::string root;         ///< of links, relative to the page: empty, or ending in '/'
-    bool tablesOnly = false;  ///< the folder holds tables but no runs
+    bool tablesOnly = false;  ///< the folder contains tables but no runs
     std::string writtenUtc;   ///< ISO 8601
     StoredRuns runs;
     std::vector<std::string> problems;  ///< missing or doubtful data, one sentence each
-    /// Those of the problems that say that machines or builds of the runs differ.
+    /// The problems that report different machines or builds.
     std::vector<std::string> mixedMachines;
     /// Provenance fields of each machine involved.
     std::vector<std::map<std::string, std::string, std::less<>>> machines;

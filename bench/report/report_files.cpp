@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct VegaModule {
-    const char *name, *file;  // what others require it by, and the file that Debian has it in
+    const char *name, *file;  // the name by which others require it, and its file in Debian
 };
 /// Debian ships Vega in modules that require each other by name. Those for maps and text clouds are omitted.
 constexpr std::array<VegaModule, 20> vegaModules{{{"util", "util"},
@@ -110,8 +110,7 @@ std::string vegaScript() {
     for (const auto& [name, file] : vegaModules) {
         const fs::path path = vegaFolder() / fmt::format("vega-{}.min.js", file);
         if (!fs::exists(path))
-            throw InputError(
-                fmt::format("'{}' is missing, expected from the Debian package libjs-vega", path.string()));
+            throw InputError(fmt::format("'{}' is missing; on Debian, install the package libjs-vega", path.string()));
         script += fmt::format("vegaParts['vega-{}'] = function (exports, require, module) {{\n{}\n}};\n", name,
                               fileText(path));
     }

@@ -139,7 +139,7 @@ json pictureSetJson(const PictureSet& set, const std::string& root) {
             {"width", set.width},      {"height", set.height}, {"pictures", std::move(pictures)}};
 }
 
-/// `#rrggbb`, from no difference to the largest: what the difference maps are drawn with.
+/// The colours of difference maps as `#rrggbb`, from no difference to the maximum.
 json heatColours() {
     constexpr int steps = 16;
     json colours = json::array();

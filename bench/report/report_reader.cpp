@@ -26,19 +26,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As readStoredRuns, but damaged runs are reported and skipped.
+/// As readStoredRuns, but reports and skips damaged runs.
 void readRuns(const fs::path& folder, ReportData& data) {
     std::error_code error;
     if (data.tablesOnly) {
         data.runs = readSummaryRuns(folder, data.problems);
         adoptOlderRows(data.runs, data.problems);
         data.problems.push_back(
-            "the folder holds tables alone: frame times, pictures and warnings of its runs are not shown");
+            "the folder contains only tables: frame times, pictures and warnings of its runs are not shown");
         return;
     }
     fs::directory_iterator entry(folder / "runs", error);
     if (error) {
-        data.problems.push_back("there is no folder 'runs': nothing was measured here, or this is not a result folder");
+        data.problems.push_back("there is no folder 'runs': nothing was measured, or this is not a results folder");
         return;
     }
     for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
@@ -56,7 +56,7 @@ void readRuns(const fs::path& folder, ReportData& data) {
         }
     }
     addMethodTimes(data.runs);
-    if (data.runs.empty()) data.problems.push_back("the folder 'runs' holds no run");
+    if (data.runs.empty()) data.problems.push_back("the folder 'runs' contains no run");
     if (std::string said = saysNothingOfOutputs(data.runs); !said.empty()) data.problems.push_back(std::move(said));
 }
 
@@ -83,20 +83,19 @@ MachineOfRun findMachines(ReportData& data) {
         machineOf[id] = static_cast<std::size_t>(found - keys.begin());
     }
     if (data.machines.size() > 1)
-        noteMixed(
-            data,
-            fmt::format(
-                "the runs are of {} different machines or kinds of build: their times stand apart, and are not to be "
-                "compared",
-                data.machines.size()));
+        noteMixed(data,
+                  fmt::format(
+                      "the runs are from {} different machines or kinds of build: their times are shown separately and "
+                      "must not be compared",
+                      data.machines.size()));
     return machineOf;
 }
 
-/// Comparing builds may be intended, but should be visible.
+/// Comparing builds may be intended, but must be visible.
 void noteBuilds(ReportData& data) {
     for (const std::string_view field : {"git_commit", "compiler", "gl_version"}) {
         std::set<std::string> values;
-        // Twelve letters tell commits apart.
+        // Twelve characters identify a commit.
         for (const auto& [id, run] : data.runs)
             values.insert(field == "git_commit" ? provenanceOf(run, field).substr(0, 12) : provenanceOf(run, field));
         if (values.size() > 1)
@@ -104,7 +103,7 @@ void noteBuilds(ReportData& data) {
     }
 }
 
-/// Warnings that differ only in their numbers are of one kind: every number becomes 0.
+/// Warnings that differ only in their numbers are of the same kind: every number becomes 0.
 std::string withoutNumbers(std::string_view warning) {
     std::string kind;
     const auto isDigit = [&](std::size_t at) {
@@ -147,10 +146,10 @@ void noteUnknownColumns(ReportData& data) {
             if (!known.contains(column) && !column.starts_with("p.")) unknown.insert(column);
     if (!unknown.empty())
         data.problems.push_back(
-            fmt::format("columns that this version does not know, and leaves out: {}", fmt::join(unknown, ", ")));
+            fmt::format("columns unknown to this version are left out: {}", fmt::join(unknown, ", ")));
 }
 
-/// Sorts a paper's experiments in the paper's order, the quick form after the whole one.
+/// Sorts a paper's experiments in the paper's order, each quick run after the full one.
 void inOrderOf(const Paper& paper, std::vector<RunGroup>& groups) {
     const auto place = [&paper](const RunGroup& group) {
         return std::pair(std::ranges::find(paper.suites, group.suite) - paper.suites.begin(), group.id);
@@ -169,16 +168,16 @@ std::set<std::string> controlsOf(const std::string& paper) {
     }
 }
 
-/// The tables beside the page, to which it links.
+/// The tables in the folder of the page, to which it links.
 void listFiles(const fs::path& folder, ReportData& data) {
     for (const char* name : {"summary.csv", "claims.csv", "experiments.csv", "machine.csv", "cinema.cdb/data.csv"})
-        // The page writes claims.csv itself.
+        // claims.csv is written together with the page.
         if (std::error_code none;
             fs::exists(folder / name, none) || (name == std::string_view("claims.csv") && !data.claims.empty()))
             data.files.emplace_back(name);
 }
 
-/// A row without a place is told, and takes nothing else with it.
+/// A wrong row is reported and does not affect the rest of the page.
 void placePublished(const std::string& paper, ReportData& data) {
     try {
         const auto published = readPublished(paper);
@@ -186,14 +185,14 @@ void placePublished(const std::string& paper, ReportData& data) {
             if (const auto found = published.find(group.suite); found != published.end())
                 group.published = publishedIn(group, found->second);
     } catch (const InputError& fault) {
-        data.problems.push_back(fmt::format("paper {}: no published number is shown: {}", paper, fault.what()));
+        data.problems.push_back(fmt::format("paper {}: published numbers are not shown: {}", paper, fault.what()));
     }
 }
 
 void readPapers(const fs::path& folder, ReportData& data) {
     const std::set<std::string> ids = papersOf(data.groups);
     if (ids.empty()) return;
-    // Not from the file of that name, which nothing holds to what the runs say.
+    // Made from the runs: the file of that name may differ from them.
     const auto summary = files::CsvTable::parseText(summaryCsv(data.runs), (folder / "summary.csv").string());
     for (const std::string& id : ids) {
         try {
@@ -226,7 +225,7 @@ std::set<std::string> papersOf(const std::vector<RunGroup>& groups) {
 ReportData readReport(const fs::path& folder, std::int64_t maximumPictureBytes) {
     if (!fs::is_directory(folder))
         throw InputError(
-            fmt::format("'{}': not a folder, expected one that `suite`, `run` or `reproduce` wrote", folder.string()));
+            fmt::format("'{}': not a folder, expected one written by `suite`, `run` or `reproduce`", folder.string()));
     ReportData data;
     const fs::path whole = fs::absolute(folder).lexically_normal();
     data.folder = (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();

@@ -14,11 +14,11 @@ namespace dustbench::bench {
 /// Default limit of embedded pictures, in bytes.
 inline constexpr std::int64_t defaultPictureBytes = 12'000'000;
 
-/// The papers that the report judges: those of the groups. A paper whose groups all are suites that another one lists
-/// as controls is left out.
+/// The papers whose claims the report evaluates: those of the groups. A paper is left out if all of its groups are
+/// suites that another paper lists as controls.
 [[nodiscard]] std::set<std::string> papersOf(const std::vector<RunGroup>& groups);
-/// Reads everything that the page shows, with a sentence for each thing that cannot be read. Throws InputError if
-/// `folder` is not a folder.
+/// Reads the data of the page, with a sentence for everything that cannot be read. Throws InputError if `folder` is not
+/// a folder.
 [[nodiscard]] ReportData readReport(const std::filesystem::path& folder, std::int64_t maximumPictureBytes);
 
 }  // namespace dustbench::bench

@@ -51,7 +51,7 @@ TEST(MedianInterval, HasTheProbabilityOfTheSignTest) {
     EXPECT_EQ(six.high, 6);
     EXPECT_DOUBLE_EQ(six.probability, 1 - 2.0 / 64);
 
-    // 9 values: 1 − 2·(1 + 9)/512 has 95 % still, 1 − 2·(1 + 9 + 36)/512 has not.
+    // 9 values: 1 − 2·(1 + 9)/512 is above 95 %, 1 − 2·(1 + 9 + 36)/512 is not.
     const MedianInterval nine = medianInterval({1, 2, 3, 4, 5, 6, 7, 8, 9});
     EXPECT_EQ(nine.low, 2);
     EXPECT_EQ(nine.high, 8);
@@ -185,7 +185,7 @@ TEST(ReportPictures, AreBase64) {
     EXPECT_EQ(dataUrl("image/png", "hell"), "data:image/png;base64,aGVsbA==");
 }
 
-/// One judged run with a picture of 24 x 16 pixels; gives its data, of which the folder holds the files.
+/// Writes the files of one run with metrics and pictures of 24 x 16 pixels into the folder, and returns its data.
 ReportData pictured(const Folder& folder) {
     ReportData data;
     StoredRun made = run("haze", 100, 1, 3);
@@ -231,7 +231,7 @@ TEST(ReportPictures, OfTheWorstMomentAreInThePageFirst) {
     folder.write(made + "metrics.csv", "frame,psnr_db,ssim,flip\n10,,,0.1\n30,,,0.4\n50,,,0.2\n");
     collectPictures(folder.path(), 100'000, data);
     const std::string& whole = data.pictureSets.at(0).pictures.at(0).source;
-    const auto room = static_cast<std::int64_t>(3 * (whole.size() - whole.find(',')));  // for one moment of three
+    const auto room = static_cast<std::int64_t>(3 * (whole.size() - whole.find(',')));  // one of three
     data.pictureSets.clear();
     data.linkedPictures = 0;
     collectPictures(folder.path(), room, data);

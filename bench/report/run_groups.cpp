@@ -24,7 +24,7 @@ using files::numberOf;
 
 using Settings = std::map<std::string, std::string, std::less<>>;
 
-/// Cells of summary.csv that describe the world and the run; `size` replaces width and height.
+/// Columns of summary.csv that describe the world and the run; `size` replaces width and height.
 constexpr std::array<std::string_view, 6> worldCells{"scene", "drive", "seed", "sync", "threads", "frames"};
 /// Columns whose growth with a load is fitted.
 constexpr std::array<std::string_view, 3> fittedColumns{"frame_ms_median", "build_ms_median", "sort_ms_median"};
@@ -38,7 +38,7 @@ const std::string& cellOf(const StoredRun& run, std::string_view column) {
 /// Everything that can distinguish two cells, except method and machine.
 Settings settingsOf(const StoredRun& run) {
     Settings settings(run.parameters.begin(), run.parameters.end());
-    // A run that failed early has no frames, one that was skipped no drive; it still belongs to the same cell.
+    // A run that failed early has no frames and a skipped one no drive, but they still belong to the same cell.
     for (const std::string_view column : worldCells)
         if (run.status == RunStatus::done || (column != "frames" && !cellOf(run, column).empty()))
             settings.emplace(column, cellOf(run, column));
@@ -60,7 +60,7 @@ void describe(ReportAxis& axis, const std::set<std::string>& methods) {
     axis.help = found->help;
 }
 
-/// Numerically if all values are numbers, else by name.
+/// Numerically if all values are numbers, otherwise by name.
 void sortValues(ReportAxis& axis) {
     axis.numeric =
         std::ranges::all_of(axis.values, [](const std::string& value) { return numberOf(value).has_value(); });
@@ -69,8 +69,8 @@ void sortValues(ReportAxis& axis) {
     });
 }
 
-/// World settings that vary at all, and method settings that vary among the runs of one method. Settings that only
-/// differ between methods are part of the setup.
+/// World settings that vary, and method settings that vary between runs of the same method. Settings that only differ
+/// between methods are part of the setup.
 std::vector<ReportAxis> axesOf(const std::vector<const StoredRun*>& runs) {
     std::map<std::string, std::map<std::string, std::set<std::string>>> valuesByMethod;  // by name, then method
     std::set<std::string> methods;
@@ -95,7 +95,7 @@ std::vector<ReportAxis> axesOf(const std::vector<const StoredRun*>& runs) {
     return axes;
 }
 
-/// The cells of the world that are the same in all runs that have them.
+/// The settings of the world that are the same in all runs that have them.
 Settings commonOf(const std::vector<const StoredRun*>& runs) {
     std::map<std::string, std::set<std::string>> values;
     for (const StoredRun* run : runs)
@@ -141,7 +141,7 @@ std::string labelOf(const RunGroup& group, const ReportCell& cell, bool world) {
     return label;
 }
 
-/// The existing runs of this form of the suite.
+/// The existing runs of the suite, full or quick.
 std::vector<const StoredRun*> runsOf(const Suite& suite, int repetitions, const StoredRuns& runs) {
     std::vector<const StoredRun*> found;
     for (const PlannedRun& cell : suite.cells)
@@ -151,7 +151,7 @@ std::vector<const StoredRun*> runsOf(const Suite& suite, int repetitions, const 
     return found;
 }
 
-/// What the suite says of its runs, and its verdicts on them.
+/// Fills in the suite's description and its verdicts on the runs.
 void describeBy(Suite suite, int repetitions, const StoredRuns& runs, RunGroup& group) {
     suite.repetitions = std::max(suite.repetitions, repetitions);
     group.suite = suite.id;
@@ -222,7 +222,7 @@ std::vector<RunGroup> sortIntoGroups(const StoredRuns& runs, const MachineOfRun&
             try {
                 Suite suite = loadSuite(file.id, quick);
                 const std::vector<const StoredRun*> found = runsOf(suite, repetitions, runs);
-                // Runs common to both forms are shown once.
+                // Runs that belong to both the full and the quick run are shown once.
                 if (std::ranges::all_of(found, [&](const StoredRun* run) { return shown.contains(run); })) continue;
                 shown.insert(found.begin(), found.end());
                 const std::vector<const StoredRun*> all = runsOf(withBaselines(suite), repetitions, runs);
@@ -242,12 +242,12 @@ std::vector<RunGroup> sortIntoGroups(const StoredRuns& runs, const MachineOfRun&
     for (const auto& [id, run] : runs)
         if (!placed.contains(&run)) others.push_back(&run);
     if (!others.empty()) {
-        // One of the unreadable suites may be theirs.
+        // They may belong to one of the unreadable suites.
         std::ranges::move(faults, std::back_inserter(problems));
         RunGroup group = makeGroup(others, machines);
         group.id = "other";
         group.title = groups.empty() ? "Runs" : "Other runs";
-        group.summary = "Runs of no suite of the data folder.";
+        group.summary = "Runs that belong to no suite of the data folder.";
         groups.push_back(std::move(group));
     }
     return groups;

@@ -7,17 +7,18 @@
 
 namespace dustbench::bench {
 
-/// Which machine each run was measured on, by run id, as an index into ReportData::machines.
+/// The machine of each run by run id, as an index into ReportData::machines.
 using MachineOfRun = std::map<std::string, std::size_t, std::less<>>;
 
-/// Points into `runs`. Unreadable suites are skipped and reported in `problems` if runs remain without a suite.
+/// Contains pointers into `runs`. Unreadable suites are skipped, and reported in `problems` if runs remain without a
+/// suite.
 [[nodiscard]] std::vector<RunGroup> sortIntoGroups(const StoredRuns& runs, const MachineOfRun& machines,
                                                    std::vector<std::string>& problems);
 
 /// Axes, cells and fits of these runs.
 [[nodiscard]] RunGroup makeGroup(const std::vector<const StoredRun*>& runs, const MachineOfRun& machines);
 
-/// `billboard soft=on`: the method and its settings that are axes, without the world's.
+/// `billboard soft=on`: the method and those of its settings that are axes.
 [[nodiscard]] std::string variantLabel(const RunGroup& group, const ReportCell& cell);
 /// `speed=20 particles=500`: the world's settings.
 [[nodiscard]] std::string worldLabel(const RunGroup& group, const ReportCell& cell);

@@ -19,12 +19,12 @@ namespace dustbench::bench {
 namespace fs = std::filesystem;
 namespace {
 
-/// A sheet with more is turned if that makes it narrower: methods are its rows then.
+/// A sheet with more columns is transposed, with methods as rows, if that makes it narrower.
 constexpr std::size_t mostColumns = 9;
 
 struct ShownPicture {
     pictures::Image picture;
-    std::optional<Plane> difference;  ///< from the exact picture; empty if this run has none
+    std::optional<Plane> difference;  ///< from the reference image; empty if this run has none
     std::string caption;
 };
 
@@ -53,7 +53,7 @@ files::CsvTable metricsOfRun(const ResultsFolder& results, const SheetRun& run) 
     return files::CsvTable::parseFile(results.runFolder(run.runId) / "metrics.csv");
 }
 
-/// The rows of metrics.csv for frames with pictures; the others belong only to the popping stretch.
+/// The rows of metrics.csv for frames with pictures; the others are only measured for popping.
 std::vector<std::size_t> rowsWithPicture(const files::CsvTable& metrics) {
     std::vector<std::size_t> rows;
     for (std::size_t row = 0; row < metrics.rows(); ++row)
@@ -89,10 +89,10 @@ void addJudged(const ResultsFolder& results, const SheetRun& run, std::vector<Mo
 void addAsItIs(const ResultsFolder& results, const SheetRun& run, std::vector<Moment>& moments) {
     for (Moment& moment : moments)
         moment.pictures.push_back(
-            {readPicture(results, run, moment.frame, ""), std::nullopt, "its own simulation:  no exact picture"});
+            {readPicture(results, run, moment.frame, ""), std::nullopt, "its own simulation:  no reference image"});
 }
 
-/// The maximum difference of all, rounded up to a tenth.
+/// The maximum of all differences, rounded up to a tenth.
 float scaleOf(const std::vector<Moment>& moments) {
     float maximum = 0;
     for (const Moment& moment : moments)
@@ -151,7 +151,7 @@ ContactSheet methodsAsRows(std::span<const SheetRun> runs, const std::vector<Mom
 
 ContactSheet sideBySideSheet(const ResultsFolder& results, std::span<const SheetRun> runs, const std::string& title) {
     const auto firstJudged = std::ranges::find_if(runs, &SheetRun::judged);
-    if (firstJudged == runs.end()) throw std::invalid_argument("contact sheet: no run is judged");
+    if (firstJudged == runs.end()) throw std::invalid_argument("contact sheet: no run has metrics");
     std::vector<Moment> moments = readReferences(results, *firstJudged);
     for (const SheetRun& run : runs) run.judged ? addJudged(results, run, moments) : addAsItIs(results, run, moments);
     const std::size_t columns =

@@ -1,7 +1,7 @@
-// The contact sheet of runs: rows are moments; columns are the exact picture, each method's picture, and its
-// difference. With many methods and few moments the methods are the rows instead.
+// The contact sheet of several runs. Rows are moments; columns are the reference image, each method's picture, and its
+// difference. With many methods and few moments, the methods are the rows instead.
 //
-// A method with its own simulation has no exact picture: only its picture is shown.
+// A method with its own simulation has no reference image: only its picture is shown.
 #pragma once
 
 #include <filesystem>
@@ -17,11 +17,11 @@ namespace dustbench::bench {
 struct SheetRun {
     std::string runId;
     std::string label;   ///< heading of its pictures
-    bool judged = true;  ///< against the exact pictures
+    bool judged = true;  ///< it has metrics against the reference images
 };
 
-/// Reads the pictures of the runs in `results`. All runs are of one world and the same moments, and at least one is
-/// judged. Throws InputError if a picture is missing or cannot be read.
+/// Reads the pictures of the runs in `results`. All runs must have the same world and moments, and at least one must
+/// have metrics. Throws InputError if a picture is missing or cannot be read.
 [[nodiscard]] ContactSheet sideBySideSheet(const ResultsFolder& results, std::span<const SheetRun> runs,
                                            const std::string& title);
 

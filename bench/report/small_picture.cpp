@@ -11,10 +11,10 @@
 namespace dustbench::bench {
 namespace {
 
-/// Compression artefacts stay below visibility; metrics use the EXR files.
+/// Compression artefacts are invisible; metrics use the EXR files.
 constexpr int jpegQuality = 80;
 
-/// Red, green and blue of each pixel, as the file has them.
+/// Red, green and blue of each pixel, as in the file.
 std::vector<std::uint8_t> colourBytes(const pictures::StoredPicture& picture) {
     const auto channels = static_cast<std::size_t>(picture.channels);
     std::vector<std::uint8_t> bytes;

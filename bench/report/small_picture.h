@@ -12,7 +12,7 @@ struct SmallPicture {
     int width = 0, height = 0;
 };
 
-/// The file as it is, or as JPEG if that is smaller. Throws InputError if it cannot be read.
+/// The unchanged file, or a JPEG if that is smaller. Throws InputError if it cannot be read.
 [[nodiscard]] SmallPicture makeSmall(const std::filesystem::path& png);
 
 }  // namespace dustbench::bench

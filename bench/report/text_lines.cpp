@@ -6,7 +6,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Advances of ' ' to '~' in DejaVu Sans, in thousandths of the letters' nominal height.
+/// Advances of ' ' to '~' in DejaVu Sans, in thousandths of the nominal font height.
 constexpr std::array<int, 95> advances{
     318,  401, 460, 838, 636, 950, 780, 275, 390, 390, 500, 838, 318, 361, 318, 337,  //  !"#$%&'()*+,-./
     636,  636, 636, 636, 636, 636, 636, 636, 636, 636, 337, 337, 838, 838, 838, 531,  // 0123456789:;<=>?
@@ -15,7 +15,7 @@ constexpr std::array<int, 95> advances{
     500,  613, 635, 550, 635, 615, 352, 635, 634, 278, 278, 579, 278, 974, 634, 612,  // `abcdefghijklmno
     635,  635, 411, 521, 392, 634, 592, 818, 592, 592, 525, 636, 337, 636, 838};      // pqrstuvwxyz{|}~
 constexpr double otherAdvance = 1;                                                    // of letters that are not ASCII
-constexpr double boldFactor = 1.24;  // no letter of DejaVu Sans Bold is wider
+constexpr double boldFactor = 1.24;  // maximum over the letters of DejaVu Sans Bold
 
 std::size_t lengthOfFirst(std::string_view text) {
     std::size_t bytes = 1;
@@ -37,7 +37,7 @@ std::vector<std::string_view> split(std::string_view text, std::size_t spaces) {
     return parts;
 }
 
-/// As many letters as fit, one at least.
+/// As many letters as fit, but at least one.
 std::string_view fittingPart(std::string_view word, double widthPixels, const Lettering& lettering) {
     std::size_t bytes = lengthOfFirst(word);
     while (bytes < word.size()) {
@@ -52,7 +52,7 @@ class Breaker {
  public:
     Breaker(double widthPixels, const Lettering& lettering) : width_(widthPixels), lettering_(lettering) {}
 
-    /// Appends the part to the last line if it fits there, else begins a new line with it.
+    /// Appends the part to the last line if it fits, otherwise begins a new line with it.
     void add(std::string_view part, std::size_t spaces) {
         if (!lines_.empty()) {
             const std::string longer = lines_.back() + std::string(spaces, ' ') + std::string(part);

@@ -1,6 +1,6 @@
 // Breaks text into lines for pictures that another program draws.
 //
-// Widths are estimated from the advances of DejaVu Sans; bold lines are narrower than estimated.
+// Widths are estimated from the advances of DejaVu Sans. Bold lines are never wider than estimated.
 // Units: pixels. Threads: pure.
 #pragma once
 
@@ -17,8 +17,8 @@ struct Lettering {
 
 [[nodiscard]] double textWidth(std::string_view text, const Lettering& lettering);
 
-/// Each line is at most `widthPixels` wide: broken at two or more spaces, which mark the preferred place, if the text
-/// does not fit in one line; then between words; then within words. Blank text has no lines. `text` is UTF-8.
+/// Breaks text into lines of at most `widthPixels`: first at two or more spaces, which mark the preferred place, then
+/// between words, then within words. Blank text has no lines. `text` is UTF-8.
 [[nodiscard]] std::vector<std::string> brokenText(std::string_view text, double widthPixels,
                                                   const Lettering& lettering);
 

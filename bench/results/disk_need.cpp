@@ -24,7 +24,7 @@ std::uint64_t maximumBytesOf(const RunSpec& spec) {
     }
     if (spec.judging && spec.judging->keepsPictures) {
         const auto moments = spec.judging->momentsOf(spec.frames).size();
-        bytes += moments * 3 * picture;  // its own, the reference and the difference
+        bytes += moments * 3 * picture;  // the method's, the reference and the difference
     }
     if (spec.volumes) {
         const auto edge = static_cast<std::uint64_t>(spec.volumes->resolution);

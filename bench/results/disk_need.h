@@ -1,4 +1,4 @@
-// Estimates the disk space of a run's files, so that a long list of runs does not fail half-way.
+// Estimates the disk space of a run's files before it starts, so that long suites do not fail half-way.
 //
 // Units: bytes.
 #pragma once
@@ -11,8 +11,8 @@
 
 namespace dustbench::bench {
 
-/// Upper bound as far as known in advance: tables, uncompressed pictures, grids at their full resolution. The numbers
-/// of particles and octree nodes in a volume are unknown; they count as a grid.
+/// Upper bound, as far as known in advance, from tables, uncompressed pictures and grids at full resolution. The
+/// numbers of particles and octree nodes in a volume are not known; such a volume counts as a grid.
 [[nodiscard]] std::uint64_t maximumBytesOf(const RunSpec& spec);
 
 /// Space available to an ordinary user on the file system of `folder`.

@@ -29,15 +29,15 @@ std::string Freshness::whyOutdated(const StoredRun& run) {
     }
     for (const InputHash& input : run.inputs) {
         const std::string& now = hashOf(input.file);
-        if (now.empty()) return input.file + " cannot be read any more";
+        if (now.empty()) return input.file + " can no longer be read";
         if (now != input.sha256) return input.file + " has changed since";
     }
     for (const InputHash& search : run.searches) {
         const auto [entry, isNew] = names_.try_emplace(search.file);
         if (isNew) entry->second = hashOfFoundNames(search.file);
         if (entry->second == search.sha256) continue;
-        if (files::isPattern(search.file)) return "other files match " + search.file + " now";
-        return search.file + " is there now, and was not";
+        if (files::isPattern(search.file)) return "other files now match " + search.file;
+        return search.file + " did not exist and now does";
     }
     return {};
 }

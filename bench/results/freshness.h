@@ -1,4 +1,4 @@
-// Checks whether a stored result is what the same run would give now: same program, same input files.
+// Checks whether a stored result is outdated: whether the same run would now use another program or other input files.
 //
 // Threads: one at a time; every file is read once.
 #pragma once
@@ -12,7 +12,7 @@ namespace dustbench::bench {
 
 class Freshness {
  public:
-    /// Compares with this program, unless another build id is given.
+    /// Compares with this program, unless a build id is given.
     explicit Freshness(std::string buildId = buildFacts().buildId) : buildId_(std::move(buildId)) {}
 
     /// Why the result is outdated, as the end of a sentence; empty if it is not. Runs that did not complete are never
@@ -23,8 +23,8 @@ class Freshness {
     [[nodiscard]] const std::string& hashOf(const std::string& input);
 
     std::string buildId_;
-    std::map<std::string, std::string> hashes_;  ///< by name; empty: unreadable
-    std::map<std::string, std::string> names_;   ///< of the searches, by path
+    std::map<std::string, std::string> hashes_;  ///< by file name; empty: unreadable
+    std::map<std::string, std::string> names_;   ///< hashes of the names found by searches, by path
 };
 
 }  // namespace dustbench::bench

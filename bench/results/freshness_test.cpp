@@ -32,11 +32,11 @@ TEST(Freshness, NoticesThatOtherFilesMatchAPattern) {
     (void)folder.write("other_05.vti", "5");
     EXPECT_EQ(Freshness("0123").whyOutdated(run), "");
     (void)folder.write("s_05.vti", "5");
-    EXPECT_THAT(Freshness("0123").whyOutdated(run), HasSubstr("s_*.vti now"));
+    EXPECT_THAT(Freshness("0123").whyOutdated(run), HasSubstr("now match"));
     std::filesystem::remove(folder.path() / "s_05.vti");
     EXPECT_EQ(Freshness("0123").whyOutdated(run), "");
     std::filesystem::remove(folder.path() / "s_08.vti");
-    EXPECT_THAT(Freshness("0123").whyOutdated(run), HasSubstr("s_08.vti cannot be read any more"));
+    EXPECT_THAT(Freshness("0123").whyOutdated(run), HasSubstr("s_08.vti can no longer be read"));
 }
 
 TEST(Freshness, NoticesAFileThatStandsBeforeTheDeliveredOne) {
@@ -47,7 +47,7 @@ TEST(Freshness, NoticesAFileThatStandsBeforeTheDeliveredOne) {
     EXPECT_EQ(Freshness("0123").whyOutdated(run), "");
     std::filesystem::create_directories(folder.path() / "heights");
     (void)folder.write("heights/dunes.png", "");
-    EXPECT_THAT(Freshness("0123").whyOutdated(run), HasSubstr("heights/dunes.png is there now, and was not"));
+    EXPECT_THAT(Freshness("0123").whyOutdated(run), HasSubstr("heights/dunes.png did not exist and now does"));
 }
 
 }  // namespace

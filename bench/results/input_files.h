@@ -11,11 +11,11 @@
 
 namespace dustbench::bench {
 
-/// Files of data that a method's parameters name: a fluid, a shape. Throws InputError where one is missing.
+/// Data files that a method's parameters name, such as a fluid or a shape. Throws InputError if one is missing.
 [[nodiscard]] std::vector<std::filesystem::path> dataFilesOf(const ParameterValues& parameters);
 
-/// Writes down the world's files, those of the method, and all others that were read, because files name other files,
-/// and what was looked for. Throws InputError if a file is missing.
+/// Records the files of the world and the method, the further files that these name, and the searches for files. Throws
+/// InputError if a file is missing.
 void recordInputs(const World& world, const ParameterValues& ofMethod, const files::InputLog& read,
                   Provenance& provenance);
 

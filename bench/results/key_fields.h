@@ -1,4 +1,4 @@
-// Reads back the key of a stored run: the settings that distinguish it from others.
+// Reads the key of a stored run: the settings that distinguish it from others.
 #pragma once
 
 #include <string>
@@ -13,10 +13,11 @@ namespace dustbench::bench {
 /// Names and values in the order of canonicalKey (run_spec.h): `method`, `scene`, `drive`, `p.particles`, `frames` …
 using KeyFields = std::vector<std::pair<std::string, std::string>>;
 
-/// Throws InputError with the run if its provenance has no key, or the key a line that is not `name=value`.
+/// Throws InputError with the run if its provenance has no key, or if a line of the key is not `name=value`.
 [[nodiscard]] KeyFields keyFields(const StoredRun& run);
 
-/// What was asked for, without volumes and metrics. Throws InputError as keyFields does, or for a value that is none.
+/// The specification of the run, without volumes and metrics. Throws InputError as keyFields does, and for an invalid
+/// value.
 [[nodiscard]] RunSpec specFromKey(const StoredRun& run);
 
 }  // namespace dustbench::bench

@@ -1,4 +1,4 @@
-// Compares the circumstances of two runs: machine, graphics device and build; or whether they are one.
+// Compares the circumstances of two runs (machine, graphics device, build), and detects copies of one measurement.
 #pragma once
 
 #include <span>
@@ -15,13 +15,13 @@ namespace dustbench::bench {
 /// Fields that may differ on purpose but should be reported: `compiler`, `gl_version` …
 [[nodiscard]] std::span<const std::string_view> circumstanceFields();
 
-/// The run's values of these fields; empty where it has none.
+/// The run's values of these fields; empty for fields that it does not have.
 [[nodiscard]] std::vector<std::string> valuesOf(const StoredRun& run, std::span<const std::string_view> fields);
 
-/// The first input file that is not the same in both; empty if all are.
+/// The first input file that differs between the runs; empty if none does.
 [[nodiscard]] std::string differingInput(const StoredRun& first, const StoredRun& second);
 
-/// True if both are one measurement, as in a folder and its copy: same start, place, numbers and files.
+/// True if both are the same measurement, as in a folder and its copy: same start, place, numbers and files.
 [[nodiscard]] bool areOneMeasurement(const StoredRun& a, const StoredRun& b);
 
 struct FieldDifference {

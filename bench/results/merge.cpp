@@ -11,11 +11,11 @@ namespace dustbench::bench {
 namespace fs = std::filesystem;
 namespace {
 
-/// What a link leads to is not the run's, and may lie anywhere.
+/// Refuses links: their targets may be anywhere and do not belong to the run.
 void requireOwn(const fs::path& path, fs::file_type type) {
     if (type == fs::file_type::regular || type == fs::file_type::directory) return;
-    throw InputError(fmt::format("'{}': is {}, allowed: regular files and folders, which are all that a run writes",
-                                 path.string(), type == fs::file_type::symlink ? "a symbolic link" : "no file"));
+    throw InputError(fmt::format("'{}': is {}, allowed: regular files and folders", path.string(),
+                                 type == fs::file_type::symlink ? "a symbolic link" : "not a regular file"));
 }
 
 /// Sizes of all files below the run's folder, by relative name.
@@ -35,8 +35,8 @@ std::string contentOf(const fs::path& file) {
 
 void requireEqual(const std::string& runId, const fs::path& first, const fs::path& second) {
     if (contentOf(first / "run.json") == contentOf(second / "run.json") && filesOf(first) == filesOf(second)) return;
-    throw InputError(fmt::format("run '{}': got two different results, '{}' and '{}', allowed: one; remove either",
-                                 runId, first.string(), second.string()));
+    throw InputError(fmt::format("run '{}': has two different results, '{}' and '{}'; remove one of them", runId,
+                                 first.string(), second.string()));
 }
 
 }  // namespace
@@ -68,8 +68,8 @@ MergePlan planMerge(const std::vector<MergeSource>& sources, const ResultsFolder
 
 void requireSpace(const MergePlan& plan, const fs::path& folder, std::uintmax_t availableBytes) {
     if (plan.bytes > availableBytes)
-        throw InputError(fmt::format("output '{}': {} runs of {} bytes do not fit into the {} bytes that are free",
-                                     folder.string(), plan.copies.size(), plan.bytes, availableBytes));
+        throw InputError(fmt::format("output '{}': {} runs need {} bytes, but only {} are free", folder.string(),
+                                     plan.copies.size(), plan.bytes, availableBytes));
 }
 
 bool merge(const MergePlan& plan, ResultsFolder& results, const std::function<bool()>& interrupted) {

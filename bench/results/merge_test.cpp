@@ -133,7 +133,7 @@ TEST_F(Merge, RefusesTwoResultsOfOneRun) {
                                        HasSubstr("a/runs"), HasSubstr("b/runs")));
     (void)mergeInto(folder_ / "out", {a});
     EXPECT_THAT(refusal({b}), HasSubstr("two different results"));
-    // A file more.
+    // An additional file.
     const fs::path c = results("c", {1});
     write(runFolder(c, 1) / "notes.txt", "slow");
     EXPECT_THAT(refusal({c}), HasSubstr("two different results"));
@@ -152,7 +152,7 @@ TEST_F(Merge, RefusesResultsThatWereAltered) {
 
 TEST_F(Merge, NamesWhatIsMissingOrBroken) {
     const fs::path a = results("a", {1});
-    EXPECT_THAT(refusal({a, folder_ / "b"}), AllOf(HasSubstr("/b'"), HasSubstr("no folder of results")));
+    EXPECT_THAT(refusal({a, folder_ / "b"}), AllOf(HasSubstr("/b'"), HasSubstr("not a results folder")));
     write(runFolder(a, 1) / "run.json", "{\"run_id\":");
     EXPECT_THAT(refusal({a}), HasSubstr((runFolder(a, 1) / "run.json").string()));
     const fs::path moved = results("moved", {1});
@@ -188,7 +188,7 @@ TEST_F(Merge, TakesNothingFromOutsideItsFolders) {
     EXPECT_THAT(withLink("whole", run, runFolder(honest, 1)), HasSubstr(run.string() + "': is a symbolic link"));
     const fs::path piped = results("piped", {1});
     ASSERT_EQ(mkfifo((runFolder(piped, 1) / "pipe").c_str(), 0600), 0);
-    EXPECT_THAT(refusal({piped}), HasSubstr("pipe': is no file"));
+    EXPECT_THAT(refusal({piped}), HasSubstr("pipe': is not a regular file"));
     const fs::path linked = folder_ / "linked";
     fs::create_directories(linked);
     fs::create_symlink(honest / "runs", linked / "runs");

@@ -15,7 +15,7 @@ const std::vector<MethodFact>& methodFacts() {
                 MethodFact& fact = byName.try_emplace(info.name, MethodFact{info, {}}).first->second;
                 if (fact.info != info)
                     throw std::logic_error("methods " + fact.methods.front() + " and " + method.id +
-                                           " both declare the fact '" + info.name + "', but not the same one");
+                                           " declare the fact '" + info.name + "' with different definitions");
                 fact.methods.push_back(method.id);
             }
         std::vector<MethodFact> list;

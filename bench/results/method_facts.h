@@ -1,4 +1,4 @@
-// The facts declared by the methods of this build (methods/contract/facts.h); each is a column of summary.csv.
+// The facts that the methods of this build declare (methods/contract/facts.h); each is a column of summary.csv.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// A method's own time: what its frames take beyond those of the null method in the same world.
+// A method's own time: its frame time minus that of the null method in the same world.
 //
 // Units: ms.
 #pragma once
@@ -17,14 +17,14 @@ inline constexpr std::string_view baselineMethod = "null_method";
 /// Null if this build has none.
 [[nodiscard]] const MethodInfo* findBaseline();
 
-/// What runs of different methods share that are compared run by run: of a run's key all but the method, the methods'
-/// own parameters, and what is done outside of timed frames. Seed and repetition are among it.
-/// Empty for a run without a readable key: it has no pair.
+/// Identifies runs of different methods that are compared run by run: the run's key, including seed and repetition, but
+/// without the method, method parameters and everything outside the timed frames. Empty for a run without a readable
+/// key, which is never paired.
 [[nodiscard]] std::optional<KeyFields> pairKey(const StoredRun& run);
 
-/// Sets `method_ms_median` of every done run: its `frame_ms_median` less that of the null method, at its defaults, in
-/// the same world with the same frames, warm-up, threads, sync and repetition, on the same machine. Without such a run,
-/// and for the null method's own, it is empty.
+/// Sets `method_ms_median` of every run that is done: its `frame_ms_median` minus that of the null method, at its
+/// defaults, in the same world with the same frames, warm-up, threads, sync and repetition, on the same machine. Empty
+/// without such a run, and for the null method itself.
 void addMethodTimes(StoredRuns& runs);
 
 }  // namespace dustbench::bench

@@ -31,7 +31,7 @@ class MethodTime : public testing::Test {
         run.provenance = {{"key", canonicalKey(spec)}, {"cpu", cpu}};
         return run;
     }
-    /// Empty if the column is.
+    /// Empty if the column is empty.
     [[nodiscard]] std::string timeOf(const RunSpec& spec) {
         addMethodTimes(runs_);
         const auto& cells = runs_.at(runId(spec)).cells;

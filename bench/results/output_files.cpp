@@ -23,7 +23,7 @@ std::string whyOtherLength(const OutputFile& output, const fs::path& file) {
     const fs::file_status status = fs::symlink_status(file, error);
     if (status.type() == fs::file_type::not_found) return fmt::format("{} is missing", output.file);
     if (status.type() == fs::file_type::symlink) return fmt::format("{} is a symbolic link", output.file);
-    if (status.type() != fs::file_type::regular) return fmt::format("{} is no regular file", output.file);
+    if (status.type() != fs::file_type::regular) return fmt::format("{} is not a regular file", output.file);
     const std::uintmax_t bytes = fs::file_size(file, error);
     if (error) return fmt::format("{} cannot be read: {}", output.file, error.message());
     return bytes == output.bytes ? "" : fmt::format("{} has {} bytes, expected {}", output.file, bytes, output.bytes);
@@ -47,7 +47,7 @@ std::string whyAltered(std::span<const OutputFile> outputs, const fs::path& runF
         if (std::string why = whyOtherLength(output, runFolder / output.file); !why.empty()) return why;
     for (const OutputFile& output : outputs)
         if (!output.sha256.empty() && sumOf(runFolder / output.file, output.bytes) != output.sha256)
-            return fmt::format("{} is not what the run wrote: its SHA-256 differs", output.file);
+            return fmt::format("{} was altered: its SHA-256 differs", output.file);
     return "";
 }
 

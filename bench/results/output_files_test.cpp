@@ -13,12 +13,12 @@ namespace fs = std::filesystem;
 
 using testing::HasSubstr;
 
-/// A run's folder with a table, a picture and what is no output.
+/// A run's folder with a table, a picture and files that are not outputs.
 class OutputFiles : public testing::Test {
  protected:
     void SetUp() override {
         fs::create_directories(folder_.path() / "images");
-        for (const char* name : {"run.json", "spec.json", "log.txt"}) folder_.write(name, "not of it");
+        for (const char* name : {"run.json", "spec.json", "log.txt"}) folder_.write(name, "not an output");
         folder_.write("frames.csv", "frame\n0\n");
         folder_.write("images/f000000.png", std::string(3'000'000, 'p'));  // several blocks
     }
@@ -35,14 +35,14 @@ TEST_F(OutputFiles, AreAllFilesOfTheRunWithTheirSums) {
     EXPECT_EQ(outputs[1].file, "images/f000000.png");
     EXPECT_EQ(outputs[1].sha256, sha256(std::string(3'000'000, 'p')));
     EXPECT_EQ(whyAltered(outputs, folder_.path()), "");
-    folder_.write("notes.txt", "somebody's, and no harm");
+    folder_.write("notes.txt", "somebody's notes");
     EXPECT_EQ(whyAltered(outputs, folder_.path()), "");
 }
 
 TEST_F(OutputFiles, AreMissedCutChangedAndReplacedByOtherThings) {
     const std::vector<OutputFile> outputs = outputsIn(folder_.path());
     folder_.write("frames.csv", "frame\n1\n");
-    EXPECT_EQ(whyAltered(outputs, folder_.path()), "frames.csv is not what the run wrote: its SHA-256 differs");
+    EXPECT_EQ(whyAltered(outputs, folder_.path()), "frames.csv was altered: its SHA-256 differs");
     folder_.write("frames.csv", "frame\n");
     EXPECT_EQ(whyAltered(outputs, folder_.path()), "frames.csv has 6 bytes, expected 8");
     fs::remove(folder_.path() / "frames.csv");
@@ -51,13 +51,13 @@ TEST_F(OutputFiles, AreMissedCutChangedAndReplacedByOtherThings) {
     EXPECT_EQ(whyAltered(outputs, folder_.path()), "frames.csv is a symbolic link");
     fs::remove(folder_.path() / "frames.csv");
     ASSERT_EQ(mkfifo((folder_.path() / "frames.csv").c_str(), 0600), 0);
-    EXPECT_EQ(whyAltered(outputs, folder_.path()), "frames.csv is no regular file");
+    EXPECT_EQ(whyAltered(outputs, folder_.path()), "frames.csv is not a regular file");
 }
 
 TEST_F(OutputFiles, OfManyTheLastByteCounts) {
     const std::vector<OutputFile> outputs = outputsIn(folder_.path());
     folder_.write("images/f000000.png", std::string(2'999'999, 'p') + "q");
-    EXPECT_THAT(whyAltered(outputs, folder_.path()), HasSubstr("images/f000000.png is not what"));
+    EXPECT_THAT(whyAltered(outputs, folder_.path()), HasSubstr("images/f000000.png was altered"));
 }
 
 TEST(OutputNames, StayBelowTheFolder) {

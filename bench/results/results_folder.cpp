@@ -27,7 +27,7 @@ constexpr std::string_view hiddenStart = ".unfinished-";
 constexpr std::string_view oldStart = ".replaced-";
 constexpr std::string_view asideStart = ".damaged-";
 
-/// A run whose program was just killed ends a moment later, and may write a last file into the folder that is removed.
+/// Removes a folder. Retries, because a run whose program was just killed may write one last file into it.
 void removeLeft(const fs::path& folder) {
     std::error_code error;
     for (int attempt = 0; attempt < 20; ++attempt) {

@@ -18,7 +18,7 @@ class ResultsFolder {
     /// runs; runs with a damaged run.json or an altered output are set aside. Throws InputError if it is not writable
     /// or another program is writing to it.
     explicit ResultsFolder(std::filesystem::path folder);
-    /// A folder that it created goes again if nothing was written into it.
+    /// Removes the folder if this object created it and nothing was written into it.
     ~ResultsFolder();
     ResultsFolder(const ResultsFolder&) = delete;
     ResultsFolder& operator=(const ResultsFolder&) = delete;
@@ -27,7 +27,7 @@ class ResultsFolder {
     [[nodiscard]] std::filesystem::path runFolder(const std::string& runId) const { return folder_ / "runs" / runId; }
     /// By run id.
     [[nodiscard]] const StoredRuns& runs() const { return runs_; }
-    /// A sentence for each run that was set aside: the reason, and its new name in runs/.
+    /// One sentence for each run that was set aside: the reason, and its new name in runs/.
     [[nodiscard]] const std::vector<std::string>& setAside() const { return setAside_; }
 
     /// Creates a hidden folder in which the run is written until it is complete.

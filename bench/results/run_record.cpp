@@ -151,7 +151,7 @@ std::optional<JudgingPlan> readJudging(const Json& json) {
     return judging;
 }
 
-/// What was asked for, as specFromJson reads it.
+/// The specification, as specFromJson reads it.
 Json specObject(const RunSpec& spec) {
     return {{"method", spec.method},
             {"scene", spec.scene},
@@ -174,7 +174,7 @@ Json specObject(const RunSpec& spec) {
             {"parameters", spec.parameters}};
 }
 
-/// The same as a reader of results sees it, with the drive that was taken.
+/// The specification as recorded in results, with the resolved drive.
 Json resolvedSpecObject(const RunSpec& spec, const std::string& drive) {
     Json object = specObject(spec);
     object["drive"] = drive;

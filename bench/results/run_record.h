@@ -1,4 +1,4 @@
-// The record of one run as written to run.json, and the specification passed to a run's process.
+// The record of one run, as written to run.json, and the specification that a run's process reads.
 //
 // The JSON library is used in one source file only. stored_run.h reads what is written here.
 #pragma once
@@ -28,7 +28,7 @@ inline constexpr Choices<RunStatus> runStatuses{{"done", RunStatus::done},
                                                 {"timeout", RunStatus::timeout},
                                                 {"skipped", RunStatus::skipped}};
 
-/// A cell of summary.csv. Missing and non-finite values are empty in CSV and null in JSON.
+/// A value of summary.csv. Missing and non-finite values are empty in CSV and null in JSON.
 using Value = std::variant<std::monostate, std::int64_t, double, std::string>;
 /// Text in a CSV file, before quoting.
 [[nodiscard]] std::string valueText(const Value& value);
@@ -38,21 +38,21 @@ using Columns = std::vector<std::pair<std::string, Value>>;
 struct RunRecord {
     RunSpec spec;
     RunStatus status = RunStatus::done;
-    std::string reason;                 ///< why it is not done; empty if done
+    std::string reason;                 ///< why it is not done; empty if it is
     std::string drive;                  ///< the resolved one
     std::string stateHash;              ///< 16 hexadecimal digits, of vehicle and shared dust after the last frame
     std::string methodHash;             ///< of the method's own simulation; empty if it has none
-    std::vector<std::string> validity;  ///< why no claim may use it (validity.h); empty if valid
-    Columns summary;                    ///< cells of summary.csv, without parameters
+    std::vector<std::string> validity;  ///< why claims must not use it (validity.h); empty if valid
+    Columns summary;                    ///< columns of summary.csv, without parameters
     std::vector<std::pair<std::string, MemoryUse>> memory;  ///< owner (`world`, `method`, `device`) and structure
-    std::optional<std::vector<OutputFile>> outputs;         ///< the files beside it; empty: not known
+    std::optional<std::vector<OutputFile>> outputs;         ///< files in the same folder; empty: unknown
     Provenance provenance;
 };
 
 /// run.json as text.
 [[nodiscard]] std::string toJson(const RunRecord& record);
 
-/// The record of an export, written beside its files.
+/// The record of an export, written to the folder of its files.
 struct ExportRecord {
     struct Moment {
         std::int64_t frame;
@@ -62,7 +62,7 @@ struct ExportRecord {
     RunSpec spec;
     std::string drive;  ///< the resolved one
     std::vector<Moment> moments;
-    std::vector<std::string> series;  ///< names beside it
+    std::vector<std::string> series;  ///< names of the series files
     Provenance provenance;
 };
 /// export.json as text.
@@ -77,7 +77,7 @@ struct ListedItem {
     std::vector<Parameter> parameters;
     bool withParameters = false;
 };
-/// An array of objects with the items' cells in order, and `parameters` if requested. For `--json`.
+/// For `--json`: an array of objects with the items' values in order, and `parameters` if requested.
 [[nodiscard]] std::string listToJson(const std::vector<ListedItem>& items);
 /// One object with the provenance fields of a run, followed by the machine's adapters and `more`.
 [[nodiscard]] std::string provenanceToJson(const Provenance& provenance, std::span<const gpu::Adapter> adapters,

@@ -51,7 +51,7 @@ TEST(RunRecord, CellsSurviveTheFileAsTheyStandInTheTable) {
     RunRecord record;
     record.spec = spec();
     record.status = RunStatus::timeout;
-    record.reason = "said \"no\",\nthen died\xff";  // and a byte that is no UTF-8
+    record.reason = "said \"no\",\nthen died\xff";  // with a byte that is not UTF-8
     record.summary = identityColumns(record, 2);
     record.summary.emplace_back("fps_avg", 59.94);
     record.summary.emplace_back("frame_ms_max", std::numeric_limits<double>::quiet_NaN());
@@ -136,7 +136,7 @@ TEST(RunRecord, OutputsSurviveTheFileAndStayBelowItsFolder) {
     for (const char* name : {"\"../frames.csv\"", "\"/dev/zero\"", "\"\"", "7", "null"})
         EXPECT_THROW((void)read("\"frames.csv\"", name), InputError) << name;
     EXPECT_THROW((void)read("5000000000", "-1"), InputError);
-    // Of an older build.
+    // From an older build.
     EXPECT_FALSE(read("\"outputs\"", "\"others\"").outputs);
     record.outputs.reset();
     EXPECT_FALSE(read().outputs);

@@ -25,7 +25,7 @@ std::string plainName(std::string_view name) {
     return plain.substr(0, 40);
 }
 
-/// The message says what so many particles would need, which is what limits them.
+/// The message gives the memory that so many particles need, which is the reason for the limit.
 void requireFewEnough(const std::string& text) {
     const Parameter& declared = *worldParameters().find("particles");
     std::int64_t count = 0;
@@ -34,7 +34,7 @@ void requireFewEnough(const std::string& text) {
         return;
     const double bytes = static_cast<double>(particles::ParticleStore::bytesPerParticle);
     throw InputError(fmt::format(
-        "parameter particles: got '{}', which need {:.3g} GB alone to be held, allowed: integer 0..{:.0f} ({:.3g} GB)",
+        "parameter particles: got '{}', which alone need {:.3g} GB of memory, allowed: integer 0..{:.0f} ({:.3g} GB)",
         text, static_cast<double>(count) * bytes / 1e9, declared.maximum, declared.maximum * bytes / 1e9));
 }
 

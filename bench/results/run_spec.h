@@ -1,4 +1,4 @@
-// The full specification of one run: what is measured, with which parameters and how. Equal specifications have equal
+// The full specification of one run: method, world, parameters and how it is measured. Equal specifications have equal
 // ids.
 #pragma once
 
@@ -36,9 +36,9 @@ struct RunSpec {
     std::string scene = "plain";
     std::string drive;          ///< empty: the scene's own
     std::string cameraPath;     ///< file or rows (camera_path.h); empty: the camera of the parameter `camera`
-    std::string dust;           ///< particles from a file (dust_files.h) in place of the scene's; empty: the scene's
-    std::string dustColumns;    ///< what its columns mean (dust_columns.h); empty: by their names
-    ParameterTexts parameters;  ///< the world's and the method's, all of them, in canonical form
+    std::string dust;           ///< particles from a file (dust_files.h) instead of the scene's; empty: the scene's
+    std::string dustColumns;    ///< the meaning of its columns (dust_columns.h); empty: by name
+    ParameterTexts parameters;  ///< all parameters of world and method, in canonical form
     std::int64_t frames = 120;
     std::int64_t warmup = 10;
     ImageSize size;
@@ -49,14 +49,14 @@ struct RunSpec {
     std::optional<VolumeSettings> volumes;  ///< volume export; empty: none
     std::optional<JudgingPlan> judging;     ///< frames that get metrics; empty: none
     int repetition = 1;                     ///< counts from 1
-    bool timed = true;                      ///< false: other runs may run beside it, and no times are kept
+    bool timed = true;                      ///< false: runs may overlap, and no times are kept
 };
 
 /// Throws InputError if a volume or metric is requested for a frame that the run does not record.
 void requireFramesWithinRun(const RunSpec& spec);
 /// The dust for World::useDust.
 [[nodiscard]] GivenDust givenDust(const RunSpec& spec);
-/// Throws InputError if something is to change after the last frame.
+/// Throws InputError if a parameter changes after the last frame.
 void requireChangesWithinRun(const RunSpec& spec);
 
 /// A specification's parameter values, split into the world's and the method's.
@@ -72,10 +72,10 @@ struct ResolvedParameters {
 /// Fills in all defaults and converts every value to canonical form.
 [[nodiscard]] ParameterTexts canonicalParameters(const MethodInfo& method, const ParameterTexts& given);
 
-/// Everything that distinguishes two runs, one `name=value` per line in a fixed order.
+/// Everything that distinguishes runs, one `name=value` per line in a fixed order.
 [[nodiscard]] std::string canonicalKey(const RunSpec& spec);
 
-/// `billboard-plain-r1-0f3a9b5c2d1e`: a readable start and the first 12 digits of the key's SHA-256.
+/// `billboard-plain-r1-0f3a9b5c2d1e`: a readable prefix and the first 12 digits of the key's SHA-256.
 [[nodiscard]] std::string runId(const RunSpec& spec);
 
 }  // namespace dustbench::bench

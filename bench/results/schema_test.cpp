@@ -45,8 +45,8 @@ std::vector<Row> tableOf(const std::string& section) {
     return rows;
 }
 
-/// The columns described by a row: `a`, `b` and `c` … `f`, which is all of the header from c to f; `<stage>` matches
-/// any.
+/// The columns that a row describes: `a`, `b` and `c` … `f`, where the last means all columns from c to f; `<stage>`
+/// matches any.
 Names namesIn(const std::string& cell, const Names& header) {
     Names names;
     const std::regex name("(`([^`]+)`)|…");
@@ -69,7 +69,7 @@ Names namesIn(const std::string& cell, const Names& header) {
     return names;
 }
 
-/// Every column has a unit cell and a definition, and nothing else is defined.
+/// Every column has a unit and a definition, and nothing else is defined.
 void expectDefined(const std::string& section, const Names& header, std::size_t definitionCell = 2) {
     std::set<std::string> defined;
     for (const Row& row : tableOf(section)) {

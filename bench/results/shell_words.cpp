@@ -9,10 +9,10 @@
 namespace dustbench::bench {
 namespace {
 
-/// In double quotes a backslash takes away the meaning of these alone.
+/// The characters that a backslash escapes within double quotes.
 constexpr std::string_view escapable = "\"\\$`\n";
 
-/// Takes one line apart, letter by letter.
+/// Splits one line into words, character by character.
 class Splitter {
  public:
     explicit Splitter(std::string_view line) : line_(line) {}
@@ -50,7 +50,7 @@ class Splitter {
             if (escapes) ++at_;
             word_.push_back(line_[at_]);
         }
-        throw InputError("command line: a quote " + std::string(1, quote) + " is opened and never closed");
+        throw InputError("command line: a quote " + std::string(1, quote) + " is never closed");
     }
     void endWord() {
         if (inWord_) words_.push_back(std::exchange(word_, {}));

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 StoredRun readRunFolder(const fs::path& folder) {
     StoredRun run = readRunFile(folder / "run.json");
     if (run.runId != folder.filename())
-        throw InputError(fmt::format("'{}': holds the run '{}', expected the one that its folder is named after",
+        throw InputError(fmt::format("'{}': contains the run '{}', expected the run that the folder is named after",
                                      (folder / "run.json").string(), run.runId));
     if (!run.outputs) return run;
     if (const std::string why = whyAltered(*run.outputs, folder); !why.empty())
@@ -26,20 +26,21 @@ std::string saysNothingOfOutputs(const StoredRuns& runs) {
         runs, [](const auto& entry) { return entry.second.status == RunStatus::done && !entry.second.outputs; });
     if (count == 0) return "";
     return fmt::format(
-        "{} of {} runs are of an older build, which noted no SHA-256 of their files: whether these were "
-        "altered cannot be told",
+        "{} of {} runs are from an older build that did not record the SHA-256 of their files, so changes to "
+        "these files cannot be detected",
         count, runs.size());
 }
 
 StoredRuns readStoredRuns(const fs::path& folder) {
     std::error_code error;
     if (!fs::is_directory(folder / "runs", error))
-        throw InputError(fmt::format("'{}': is no folder of results, expected a folder 'runs' in it", folder.string()));
+        throw InputError(
+            fmt::format("'{}': is not a results folder, expected it to contain a folder 'runs'", folder.string()));
     StoredRuns runs;
     fs::directory_iterator entry(folder / "runs", error);
     for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
         const std::string name = entry->path().filename();
-        if (name.starts_with('.') || entry->is_regular_file(error)) continue;  // a stray file is no run
+        if (name.starts_with('.') || entry->is_regular_file(error)) continue;  // a stray file is not a run
         runs.emplace(name, readRunFolder(entry->path()));
     }
     if (error) throw InputError(fmt::format("'{}': cannot be read: {}", folder.string(), error.message()));

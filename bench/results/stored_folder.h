@@ -1,4 +1,4 @@
-// Reads the runs of a results folder without changing it: no lock, nothing created, nothing removed.
+// Reads the runs of a results folder without changing it: takes no lock, creates and removes nothing.
 #pragma once
 
 #include <filesystem>
@@ -7,15 +7,15 @@
 
 namespace dustbench::bench {
 
-/// The run of one folder. Throws InputError with its file if it cannot be read, is not the run that the folder is named
-/// after, or one of its outputs is not as it was written.
+/// Reads the run of one folder. Throws InputError with its file if it cannot be read, is not the run that the folder is
+/// named after, or if one of its outputs was altered.
 [[nodiscard]] StoredRun readRunFolder(const std::filesystem::path& folder);
 
-/// How many runs that are done say nothing of their outputs, as a sentence; empty if there are none.
+/// The number of runs that are done but did not record their outputs, as a sentence; empty if there are none.
 [[nodiscard]] std::string saysNothingOfOutputs(const StoredRuns& runs);
 
-/// Reads completed runs only, not those that another program is still writing, nor stray files. Throws InputError with
-/// the folder or file if it is not a results folder, or a run in it cannot be read.
+/// Reads completed runs only; ignores runs that another program is still writing, and stray files. Throws InputError
+/// with the folder or file if it is not a results folder, or if a run in it cannot be read.
 [[nodiscard]] StoredRuns readStoredRuns(const std::filesystem::path& folder);
 
 }  // namespace dustbench::bench

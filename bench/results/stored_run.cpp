@@ -21,7 +21,7 @@ using simdjson::dom::array;
 using simdjson::dom::element;
 using simdjson::dom::object;
 
-/// Text of a value in a table; empty for null, arrays and objects.
+/// A value as text for a table; empty for null, arrays and objects.
 std::string textOfCell(element value) {
     switch (value.type()) {
         case simdjson::dom::element_type::STRING:
@@ -37,7 +37,7 @@ std::string textOfCell(element value) {
     }
 }
 
-/// True for columns of summary.csv that hold numbers; unknown columns are nobody's.
+/// True for columns of summary.csv that contain numbers; false for unknown columns.
 bool isNumeric(std::string_view column) {
     static const std::set<std::string, std::less<>> names = [] {
         const std::vector<std::string>& list = numericColumns();
@@ -48,7 +48,7 @@ bool isNumeric(std::string_view column) {
     return names.contains(column);
 }
 
-/// A warning is a sentence; what is longer comes from a damaged file.
+/// Truncates reasons and warnings: they are sentences, and a longer text comes from a damaged file.
 std::string shortened(std::string text) {
     constexpr std::size_t maximum = 1000;
     if (text.size() <= maximum) return text;
@@ -143,7 +143,7 @@ StoredRun readRunFile(const std::filesystem::path& file) {
     } catch (const std::exception& error) {
         const auto* const ofReader = dynamic_cast<const simdjson::simdjson_error*>(&error);
         if (ofReader && ofReader->error() == simdjson::MEMALLOC) throw std::bad_alloc();
-        throw InputError(file.string() + ": is no run.json of dustbench: " + error.what());
+        throw InputError(file.string() + ": is not a run.json of dustbench: " + error.what());
     }
 }
 

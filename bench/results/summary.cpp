@@ -23,7 +23,7 @@ std::int64_t largest(std::span<const FrameRecord> frames, std::int64_t FrameReco
     return value;
 }
 
-/// A share of the frames is none if it is less than one frame.
+/// A share of less than one frame gives no value.
 bool hasShare(std::span<const double> frames, double share) {
     return static_cast<double>(frames.size()) * share >= 1 - 1e-9;
 }
@@ -187,7 +187,7 @@ Columns measuredColumns(std::span<const FrameRecord> frames, const WholeRun& run
     const std::optional<double> cpu = perFrame(run.cpuJoules), gpu = perFrame(run.gpuJoules);
     add("energy_cpu_j", cpu);
     add("energy_gpu_j", gpu);
-    // A sum without one of its parts would look like a saving.
+    // A sum that lacks a part would look like a saving.
     if (cpu && (gpu || run.softwareRenderer)) columns.emplace_back("energy_j", *cpu + gpu.value_or(0));
     return columns;
 }

@@ -13,30 +13,30 @@
 
 namespace dustbench::bench {
 
-/// The columns of summary.csv before and after those of the parameters (`p.…`), in order.
+/// The columns of summary.csv before and after the parameters (`p.…`), in order.
 [[nodiscard]] const std::vector<std::string>& columnsBeforeParameters();
 [[nodiscard]] const std::vector<std::string>& columnsAfterParameters();
-/// Those after the parameters that hold numbers: the ones that charts can show.
+/// The numeric columns after the parameters, which charts can show.
 [[nodiscard]] const std::vector<std::string>& numericColumns();
 
-/// Whether a column depends on the machine's speed: times, frame rates, energy. Runs without times lack them.
+/// Whether a column depends on the machine's speed (times, frame rates, energy). Runs without times lack such columns.
 [[nodiscard]] bool dependsOnSpeed(std::string_view column);
 
-/// The cells that every run has, whatever its status.
+/// The columns that every run has, whatever its status.
 [[nodiscard]] Columns identityColumns(const RunRecord& record, int threads);
 
 /// Measurements of a run as a whole; empty if not available on this machine.
 struct WholeRun {
     std::int64_t peakResidentBytes = 0;
-    std::optional<std::int64_t> driverBytes;     ///< decrease of the GPU's free memory since the run began
+    std::optional<std::int64_t> driverBytes;     ///< decrease of the GPU's free memory since the start of the run
     std::optional<double> startSeconds;          ///< from the process's start to its first picture
     std::optional<double> cpuJoules, gpuJoules;  ///< over the recorded frames
     /// Lowest and highest clock of the GPU over the recorded frames.
     std::optional<std::pair<std::int64_t, std::int64_t>> gpuMegahertz{};
-    bool softwareRenderer = false;               ///< if true, the CPU's energy is the total
+    bool softwareRenderer = false;               ///< if true, the CPU's energy is the total energy
 };
 
-/// The cells computed from the frames and the run as a whole.
+/// The columns computed from the frames and the run as a whole.
 [[nodiscard]] Columns measuredColumns(std::span<const FrameRecord> frames, const WholeRun& run);
 
 }  // namespace dustbench::bench

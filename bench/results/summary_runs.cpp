@@ -54,7 +54,7 @@ StoredRuns readSummaryRuns(const fs::path& folder, std::vector<std::string>& pro
             run.provenance = machine;
             const std::string id = run.runId;
             if (!runs.emplace(id, std::move(run)).second)
-                throw InputError(fmt::format("{}run_id: got '{}' a second time", table.where(row), id.substr(0, 80)));
+                throw InputError(fmt::format("{}run_id: '{}' appears twice", table.where(row), id.substr(0, 80)));
         } catch (const InputError& fault) {
             problems.push_back(fmt::format("left out: {}", fault.what()));
         }

@@ -1,6 +1,7 @@
-// Runs from a folder's tables alone, summary.csv and machine.csv: what is left of results whose `runs` were not kept.
+// Reads runs from the tables summary.csv and machine.csv of a folder whose `runs` were not kept.
 //
-// They have cells, parameters and, of machine.csv's one row, the machine; no warnings, hashes, frames or pictures.
+// Such runs have cells, parameters and, from the single row of machine.csv, the machine; but no warnings, hashes,
+// frames or pictures.
 #pragma once
 
 #include <filesystem>
@@ -11,10 +12,10 @@
 
 namespace dustbench::bench {
 
-/// True if the folder has a summary.csv and no folder `runs`.
+/// True if the folder contains a summary.csv and no folder `runs`.
 [[nodiscard]] bool holdsTablesAlone(const std::filesystem::path& folder);
 
-/// Rows that are damaged are left out, each with a sentence in `problems`. Throws InputError if a table cannot be read.
+/// Skips damaged rows and adds a sentence for each to `problems`. Throws InputError if a table cannot be read.
 [[nodiscard]] StoredRuns readSummaryRuns(const std::filesystem::path& folder, std::vector<std::string>& problems);
 
 }  // namespace dustbench::bench

@@ -51,7 +51,7 @@ TEST(SummaryRuns, ADamagedRowIsLeftOutAndNamed) {
     ASSERT_EQ(runs.size(), 1u);
     EXPECT_EQ(runs.at("a").cells.at("fps_avg"), "30");
     ASSERT_EQ(problems.size(), 5u);
-    EXPECT_THAT(problems[0], AllOf(HasSubstr("summary.csv:3"), HasSubstr("a second time")));
+    EXPECT_THAT(problems[0], AllOf(HasSubstr("summary.csv:3"), HasSubstr("appears twice")));
     EXPECT_THAT(problems[1], AllOf(HasSubstr("summary.csv:4"), HasSubstr("finished")));
     EXPECT_THAT(problems[2], AllOf(HasSubstr("summary.csv:5"), HasSubstr("'fast'")));
     EXPECT_THAT(problems[3], AllOf(HasSubstr("summary.csv:6"), HasSubstr("repetition")));

@@ -1,4 +1,4 @@
-// A folder for what is not kept.
+// A temporary folder.
 #pragma once
 
 #include <stdlib.h>
@@ -10,12 +10,12 @@
 
 namespace dustbench::bench {
 
-/// Removed with all its contents on destruction. Throws InputError if it cannot be made.
+/// Removed with all its contents on destruction. Throws InputError if it cannot be created.
 class TemporaryFolder {
  public:
     TemporaryFolder() {
         std::string name = (std::filesystem::temp_directory_path() / "dustbench-XXXXXX").string();
-        if (!mkdtemp(name.data())) throw InputError(name + ": a temporary folder cannot be made");
+        if (!mkdtemp(name.data())) throw InputError(name + ": cannot create a temporary folder");
         path_ = name;
     }
     ~TemporaryFolder() {

@@ -33,7 +33,7 @@ std::vector<std::string> whyInvalid(const MethodInfo& method, const Columns& fac
     const auto asked = static_cast<double>(dust.asked);
     if (dust.asked > 0 && dust.isShown &&
         !(std::abs(dust.medianOfFrames - asked) <= countDeviations * std::sqrt(asked)))
-        reasons.push_back(fmt::format("particles_median is {:g}, asked for: {}", dust.medianOfFrames, dust.asked));
+        reasons.push_back(fmt::format("particles_median is {:g}, requested: {}", dust.medianOfFrames, dust.asked));
     return reasons;
 }
 

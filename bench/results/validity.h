@@ -1,4 +1,4 @@
-// Whether a run showed what was asked of it. A run that did not says why, and no claim uses it.
+// Checks whether a run showed what its specification asked for. Claims do not use runs that did not.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,19 @@
 
 namespace dustbench::bench {
 
-/// The shared dust, as it was asked for and as it was.
+/// The shared dust: requested and actual numbers of particles.
 struct DustCount {
-    std::int64_t asked = 0;     ///< by `particles=N`; 0: no number
+    std::int64_t asked = 0;     ///< by `particles=N`; 0: not specified
     double medianOfFrames = 0;  ///< particles alive
-    bool isShown = true;        ///< false for the null method and for methods with a simulation of their own
+    bool isShown = true;        ///< false for the null method and methods with their own simulation
 };
 
-/// Lifetimes are random, so the particles alive scatter around the number asked for, by √N at most. This many times
-/// that is no chance: 6 in 10 million.
+/// Lifetimes are random, so the number of living particles scatters around the requested number by at most √N. A
+/// deviation of this many times √N has a probability of 6 in 10 million.
 inline constexpr double countDeviations = 5;
 
-/// A short reason for each declared fact outside of its valid range, and for a number of particles that misses the one
-/// asked for. Empty for a valid run.
+/// A short reason for each declared fact outside its valid range, and for a number of particles that differs from the
+/// requested one. Empty for a valid run.
 [[nodiscard]] std::vector<std::string> whyInvalid(const MethodInfo& method, const Columns& facts,
                                                   const DustCount& dust);
 

@@ -27,7 +27,7 @@ TEST(Validity, NamesEachFactOutsideOfItsDeclaredRange) {
                 ElementsAre("clipped is 12, allowed: up to 0", "held is 0.5, allowed: 0.9..1.1"));
     EXPECT_THAT(whyInvalid(methodWith({.minimum = 0.9}), {{"held", 0.5}}, {}),
                 ElementsAre("held is 0.5, allowed: 0.9 or more"));
-    // A fact that was not told says nothing; one that is no number is no pass.
+    // A fact that was not reported is not checked; one that is not a number is invalid.
     EXPECT_THAT(whyInvalid(method, {}, {}), IsEmpty());
     EXPECT_THAT(whyInvalid(method, {{"held", std::numeric_limits<double>::quiet_NaN()}}, {}), testing::SizeIs(1));
 }
@@ -41,8 +41,8 @@ TEST(Validity, NamesANumberOfParticlesThatChanceDoesNotExplain) {
                         testing::SizeIs(1));
         }
     }
-    EXPECT_THAT(whyInvalid({}, {}, {1000, 625}), ElementsAre("particles_median is 625, asked for: 1000"));
-    EXPECT_THAT(whyInvalid({}, {}, {0, 625}), IsEmpty());            // as many as the speed raises
+    EXPECT_THAT(whyInvalid({}, {}, {1000, 625}), ElementsAre("particles_median is 625, requested: 1000"));
+    EXPECT_THAT(whyInvalid({}, {}, {0, 625}), IsEmpty());            // according to the speed
     EXPECT_THAT(whyInvalid({}, {}, {1000, 625, false}), IsEmpty());  // the method shows something else
 }
 

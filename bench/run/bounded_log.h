@@ -20,7 +20,7 @@ class BoundedLog {
     explicit BoundedLog(const std::filesystem::path& file);
 
     void write(std::string_view text);
-    /// Writes the rest: a line stating how much is missing, if anything, and the end of the output.
+    /// Writes the rest: the number of missing bytes, if any, and the end of the output.
     void finish();
 
     /// The last non-blank line so far, cut after 500 bytes.

@@ -56,12 +56,12 @@ void setLimits(const ResourceLimits& limits) {
         if (value > 0) setrlimit(resource, &limit);
     };
     set(RLIMIT_DATA, limits.memoryMegabytes * 1'000'000, 0);
-    set(RLIMIT_CPU, limits.cpuSeconds, 5);  // at its end comes SIGXCPU, after the grace SIGKILL
+    set(RLIMIT_CPU, limits.cpuSeconds, 5);  // SIGXCPU at the limit, SIGKILL after the grace period
 }
 
-/// Runs after fork: only async-signal-safe calls until exec.
+/// Runs between fork and exec: only async-signal-safe calls.
 [[noreturn]] void becomeCommand(char* const* argv, int output, int errors, pid_t parent, const ResourceLimits& limits) {
-    setpgid(0, 0);  // Ctrl-C reaches only the parent, which then decides
+    setpgid(0, 0);  // Ctrl-C reaches only the parent, which decides
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(127);
     signal(SIGINT, SIG_DFL);
@@ -137,14 +137,13 @@ std::set<pid_t> children() {
     return list;
 }
 
-/// The children that are running.
+/// The children that are running now.
 std::set<pid_t>& running() {
     static std::set<pid_t> list;
     return list;
 }
 
-/// Kills what a child has left, and what that leaves in turn, but not the processes that were there before, nor other
-/// children.
+/// Kills the orphans of a child and their orphans, but not the processes that existed before, nor other children.
 void killOrphans(const std::set<pid_t>& before) {
     for (bool found = true; found;) {
         found = false;
@@ -163,13 +162,15 @@ std::string ChildOutcome::reason() const {
     const std::string words = lastWords.empty() ? "" : ": " + lastWords;
     switch (end) {
         case End::exited:
-            return code == 0 ? "" : fmt::format("exit code {}{}", code, words.empty() ? ", without a word" : words);
+            return code == 0
+                       ? ""
+                       : fmt::format("exit code {}{}", code, words.empty() ? ", without an error message" : words);
         case End::killedBySignal: {
             const char* name = sigabbrev_np(code);
             return fmt::format("killed by {}{}", name ? std::string("SIG") + name : std::to_string(code), words);
         }
         case End::timedOut:
-            return fmt::format("no end after {:g} s", timeoutSeconds);
+            return fmt::format("not finished after {:g} s", timeoutSeconds);
         case End::interrupted:
             break;
     }
@@ -215,7 +216,8 @@ class ChildProcess::State {
     State(const State&) = delete;
     State& operator=(const State&) = delete;
 
-    /// Its streams may stay open in processes that it left behind, or close early: only its own exit counts.
+    /// Processes that the child left behind may keep its streams open, or it may close them early: only its exit
+    /// counts.
     bool advance(std::chrono::milliseconds atMost) {
         if (!isRunning_) return true;
         std::array<pollfd, 2> watched{output_.watched(), errors_.watched()};
@@ -275,7 +277,7 @@ class ChildProcess::State {
     ChildCommand command_;
     BoundedLog log_;
     LineSplitter lines_;
-    std::pair<int, int> outputPipe_;  // reading end, writing end; owned by what follows
+    std::pair<int, int> outputPipe_;  // reading end, writing end; owned by the members below
     Stream output_;
     Descriptor outputOfChild_;
     std::pair<int, int> errorsPipe_;

@@ -1,9 +1,9 @@
 // Runs a command in a child process with a time limit and reports how it ended.
 //
-// The child cannot outlive this process: the kernel kills it when its parent dies. Nor can what it started outlive the
-// child, in whatever session: this process becomes the parent of such orphans and kills them, with those of other
-// children that still run.
-// Threads: call from the main thread, and let no other start processes meanwhile.
+// The child cannot outlive this process: the kernel kills it when its parent dies. Processes that the child started
+// cannot outlive it either, in whatever session: this process becomes the parent of such orphans and kills them,
+// including orphans of other children that still run.
+// Threads: call from the main thread, and start no processes from other threads meanwhile.
 #pragma once
 
 #include <chrono>
@@ -24,14 +24,14 @@ struct ChildOutcome {
     int code = 0;           ///< exit status, or the signal's number
     std::string lastWords;  ///< the last non-blank line on its stderr
     [[nodiscard]] bool succeeded() const { return end == End::exited && code == 0; }
-    /// `killed by SIGSEGV: …`, `exit code 1: …`, `no end after 600 s`.
+    /// `killed by SIGSEGV: …`, `exit code 1: …`, `not finished after 600 s`.
     [[nodiscard]] std::string reason() const;
     double timeoutSeconds = 0;
 };
 
 struct ChildCommand {
     std::vector<std::string> argv;  ///< argv[0] is the program's path
-    std::filesystem::path log;      ///< receives its stderr; of long output only the beginning and the end
+    std::filesystem::path log;      ///< receives its stderr; only the beginning and the end of long output
     double timeoutSeconds = 0;      ///< 0: no limit
     /// Receives every line of its stdout, and an empty line about once a second while there is no output.
     std::function<void(std::string_view)> onLine;
@@ -40,20 +40,20 @@ struct ChildCommand {
     ResourceLimits limits{};
 };
 
-/// A process that was started and may still run. Several may run at a time.
+/// A child process, which may still be running. Several can run at a time.
 ///
-/// Threads: the main thread alone.
+/// Threads: the main thread only.
 class ChildProcess {
  public:
-    /// Throws std::runtime_error if it cannot be created: files::MachineError if that is for want of memory, files or
-    /// processes.
+    /// Throws std::runtime_error if it cannot be created; files::MachineError if memory, files or processes have run
+    /// out.
     explicit ChildProcess(ChildCommand command);
-    /// Kills it and what it has started if it still runs.
+    /// Kills it and the processes it started if it still runs.
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    /// Reads what it says and waits for more, at most this long. True once it has ended.
+    /// Reads its output, waiting for at most this long. True once it has ended.
     [[nodiscard]] bool advance(std::chrono::milliseconds atMost);
     /// How it ended.
     [[nodiscard]] const ChildOutcome& outcome() const;

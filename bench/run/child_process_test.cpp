@@ -74,7 +74,7 @@ TEST(ChildProcess, EndsAHangWithEverythingItStarted) {
     command.timeoutSeconds = 2;
     const ChildOutcome outcome = runChild(command);
     EXPECT_EQ(outcome.end, End::timedOut);
-    EXPECT_EQ(outcome.reason(), "no end after 2 s");
+    EXPECT_EQ(outcome.reason(), "not finished after 2 s");
     ASSERT_GT(grandchild, 0);
     // Dead, or a zombie that has not been reaped yet.
     const auto alive = [&] {

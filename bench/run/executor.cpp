@@ -33,26 +33,26 @@ void requireRoom(const ResultsFolder& results, std::uint64_t bytes) {
     const std::uint64_t free = freeBytes(results.path());
     if (free < bytes)
         throw files::MachineError(
-            fmt::format("output '{}' cannot be written: the disk has {} left and the next run may "
+            fmt::format("output '{}' cannot be written: the disk has {} free and the next run may "
                         "need {}",
                         results.path().string(), bytesText(free), bytesText(bytes)));
 }
 
-/// A file of a MiB can be made in the folder: quotas and inodes have no other sign that every file system gives.
+/// Writes a file of one MiB: the only check for quotas and free inodes that works on every file system.
 void requireWritable(const fs::path& folder) {
     writeWhole(folder / "probe", std::string(std::size_t{1} << 20, 'x'));
     fs::remove(folder / "probe");
 }
 
-/// Begins the reason of runs that their suite leaves out; later suites may run them.
+/// Prefix of the reason of runs that a suite excludes; a later suite may run them.
 constexpr std::string_view leftOut = "left out by the suite: ";
 
-/// The suite left it out when it was stored, and runs it now.
+/// True if the suite excluded the run when it was stored and includes it now.
 bool isWantedAgain(const PlannedRun& run, const StoredRun& stored) {
     return run.skip.empty() && stored.status == RunStatus::skipped && stored.reason.starts_with(leftOut);
 }
 
-/// The runs of the plan to do; counts the others in `result`.
+/// The runs of the plan that must be done; counts the others in `result`.
 std::vector<const PlannedRun*> chooseRuns(const std::vector<PlannedRun>& plan, const ResultsFolder& results,
                                           const ExecutionOptions& options, ExecutionResult& result) {
     Freshness freshness;
@@ -88,7 +88,7 @@ bool coolDown(const ExecutionOptions& options, ExecutionListener& listener) {
     return true;
 }
 
-/// Stores a run without results: its reason and its log.
+/// Stores a run without results: the reason and the log.
 void keepReason(const fs::path& folder, const RunSpec& spec, RunStatus status, const std::string& reason,
                 const ExecutionOptions& options) {
     for (const auto& entry : fs::directory_iterator(folder))
@@ -106,18 +106,18 @@ void keepReason(const fs::path& folder, const RunSpec& spec, RunStatus status, c
 
 constexpr int aborted = 2, badInput = 3;  // exit codes of a run's process
 
-/// The process's last line, without the program's name.
+/// The last line of the process, without the program's name.
 std::string wordsOf(const ChildOutcome& outcome, std::string_view prefix) {
     const std::string& words = outcome.lastWords;
     return words.starts_with(prefix) ? words.substr(prefix.size()) : words;
 }
 
-/// Throws MachineError if that is why the process ended.
+/// Throws MachineError if the machine lacked something, which is why the process aborted.
 void requireMachine(const ChildOutcome& outcome, const ResourceLimits& limits) {
     if (outcome.end != ChildOutcome::End::exited || outcome.code != aborted) return;
     const std::string what = wordsOf(outcome, "dustbench: aborted: ");
-    if (limits.memoryMegabytes > 0 && what.starts_with(files::outOfMemory)) return;  // its own limit
-    throw files::MachineError(what.empty() ? "a run gave up without a word" : what);
+    if (limits.memoryMegabytes > 0 && what.starts_with(files::outOfMemory)) return;  // the run's own limit
+    throw files::MachineError(what.empty() ? "a run aborted without an error message" : what);
 }
 
 std::string reasonOf(const ChildOutcome& outcome, const ResourceLimits& limits) {
@@ -128,23 +128,23 @@ std::string reasonOf(const ChildOutcome& outcome, const ResourceLimits& limits) 
     return outcome.reason();
 }
 
-/// Why the record that a process left is not that of the run; empty if it is.
+/// Why the record written by a process is not that of the run; empty if it is.
 std::string faultOf(const fs::path& folder, const std::string& id) {
     if (!fs::exists(folder / "run.json")) return "ended without a result";
     try {
         const std::string got = readRunFile(folder / "run.json").runId;
-        return got == id ? "" : fmt::format("left the result of another run, '{}'", got);
+        return got == id ? "" : fmt::format("wrote the result of another run, '{}'", got);
     } catch (const InputError& error) {
-        return fmt::format("left a result that cannot be read: {}", error.what());
+        return fmt::format("wrote a result that cannot be read: {}", error.what());
     }
 }
 
-/// One run of the plan, from its folder to its result. Without `finish`, nothing is left of it.
+/// One run of the plan, from its folder to its result. Without `finish`, its folder is removed.
 class RunInProgress {
  public:
     using Clock = std::chrono::steady_clock;
 
-    /// `position` is that in the list of runs to do.
+    /// `position`: in the list of runs to do.
     RunInProgress(const PlannedRun& run, std::size_t position, ResultsFolder& results, const ExecutionOptions& options,
                   ExecutionListener& listener)
         : run_(run), position_(position), id_(runId(run.spec)), results_(results), options_(options) {
@@ -167,9 +167,9 @@ class RunInProgress {
     [[nodiscard]] const PlannedRun& run() const { return run_; }
     [[nodiscard]] std::size_t position() const { return position_; }
     [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-    /// True once its process has ended.
+    /// True once the process has ended.
     [[nodiscard]] bool advance(std::chrono::milliseconds atMost) { return !child_ || child_->advance(atMost); }
-    /// Publishes the result, or why there is none. Empty if it was interrupted.
+    /// Publishes the result, or the reason why there is none. Returns nothing if the run was interrupted.
     [[nodiscard]] std::optional<StoredRun> finish() {
         if (child_ && child_->outcome().end == ChildOutcome::End::interrupted) return std::nullopt;
         if (child_) keep(child_->outcome());
@@ -204,7 +204,7 @@ class RunInProgress {
         using End = ChildOutcome::End;
         requireMachine(outcome, options_.limits);
         if (options_.badInputEnds && outcome.end == End::exited && outcome.code == badInput)
-            throw InputError(outcome.lastWords.empty() ? "the run ended with exit code 3 and without a word"
+            throw InputError(outcome.lastWords.empty() ? "the run ended with exit code 3 and no error message"
                                                        : wordsOf(outcome, "dustbench: "));
 
         if (!fs::exists(specFile())) throw cannotWrite(folder_, "it was removed while a run was being written there");
@@ -231,13 +231,13 @@ class RunInProgress {
     ResultsFolder& results_;
     const ExecutionOptions& options_;
     fs::path folder_;
-    std::string progress_;  ///< the process's last line
+    std::string progress_;  ///< last progress line of the process
     Clock::time_point start_ = Clock::now();
-    std::unique_ptr<ChildProcess> child_;  ///< none if the suite leaves the run out
+    std::unique_ptr<ChildProcess> child_;  ///< none if the suite excludes the run
     bool finished_ = false;
 };
 
-/// Runs a list, several at a time if so asked.
+/// Executes a list of runs, several at a time if requested.
 class Execution {
  public:
     Execution(const std::vector<PlannedRun>& plan, const std::vector<const PlannedRun*>& toDo, ResultsFolder& results,

@@ -21,11 +21,11 @@ namespace dustbench::bench {
 class ExecutionListener {
  public:
     virtual ~ExecutionListener() = default;
-    /// `position` counts from 1 among the `total` runs of the plan; `etaSeconds` is negative if unknown. Of runs at a
-    /// time each is started and ended; what is heard is of any of them.
+    /// `position` counts from 1 among the `total` runs of the plan; `etaSeconds` is negative if unknown. If runs
+    /// overlap, `started` and `ended` are called for each, and `heard` for any of them.
     virtual void started(std::size_t /*position*/, std::size_t /*total*/, const PlannedRun& /*run*/,
                          int /*repetitions*/, double /*etaSeconds*/) {}
-    /// A line of the run's own progress: `frames 12 120`; empty about once a second while there is no output.
+    /// A progress line of the run: `frames 12 120`; empty about once a second while there is no output.
     virtual void heard(std::string_view /*line*/) {}
     virtual void ended(const PlannedRun& /*run*/, RunStatus /*status*/, const std::string& /*reason*/) {}
 };
@@ -36,20 +36,20 @@ using ChildCommandLine =
 struct ExecutionOptions {
     bool force = false;         ///< re-run existing results
     bool retryFailed = false;   ///< re-run failed and timed-out runs
-    bool redoOutdated = false;  ///< re-run results of another build or with changed input files
+    bool redoOutdated = false;  ///< re-run results from another build or with changed input files
     double timeoutSeconds = 0;
     ResourceLimits limits;
     double cooldownSeconds = 0;     ///< pause before each run except the first
     int simultaneous = 1;           ///< runs at a time; more than one only if no times are measured
     std::vector<std::string> argv;  ///< the user's command, for provenance
-    /// The command that measures one run: it reads the specification and writes the run's files into the folder.
+    /// The command that measures one run: reads the specification and writes the run's files into the folder.
     ChildCommandLine command;
     /// The same, but only starts the run and prints a forecast of its duration on stdout (plan_forecast.h).
     ChildCommandLine forecastCommand;
     /// Forecasts known before the first run.
     ForecastByCell forecasts;
     std::function<bool()> interrupted;
-    /// Exit code 3 of a run means a user error: nothing is stored and InputError is thrown with the run's last line.
+    /// If set, exit code 3 of a run means a user error: nothing is stored, and InputError is thrown with its last line.
     bool badInputEnds = false;
 };
 
@@ -58,8 +58,8 @@ struct ExecutionResult {
     std::size_t skipped = 0;
     std::size_t failed = 0;     ///< including timeouts, and earlier failures that were not retried
     std::size_t kept = 0;       ///< existing results that were kept
-    std::size_t outdated = 0;   ///< of those: results of another build or with changed input files
-    std::string whyOutdated{};  ///< reason for the first of them
+    std::size_t outdated = 0;   ///< of these: results from another build or with changed input files
+    std::string whyOutdated{};  ///< reason for the first outdated result
     bool aborted = false;
 };
 
@@ -67,8 +67,8 @@ struct ExecutionResult {
 [[nodiscard]] std::vector<const PlannedRun*> runsToDo(const std::vector<PlannedRun>& plan, const ResultsFolder& results,
                                                       const ExecutionOptions& options);
 
-/// Throws files::MachineError if the machine lacks something (a full disk, no more open files), here or in a run's
-/// process, and InputError if the folder is no longer writable: finished runs are kept, and the same call continues
+/// Throws files::MachineError if the machine runs out of something (disk space, open files), here or in a run's
+/// process, and InputError if the folder is no longer writable. Finished runs are kept, and the same call continues
 /// once the problem is solved.
 [[nodiscard]] ExecutionResult execute(const std::vector<PlannedRun>& plan, int repetitions, ResultsFolder& results,
                                       const ExecutionOptions& options, ExecutionListener& listener);

@@ -62,7 +62,7 @@ class ExecutorFaults : public testing::Test {
     }
     void TearDown() override { fs::remove_all(folder_); }
 
-    /// What the script leaves.
+    /// Files that the script writes.
     static std::string frames() {
         std::string text = "frame\n";
         for (int i = 0; i < rowsOfFrames; ++i) text += fmt::format("{}\n", i);
@@ -75,7 +75,7 @@ class ExecutorFaults : public testing::Test {
         ExecutionListener quiet;
         return execute(plan_, 1, results, options_, quiet);
     }
-    /// Names of the results visible to a reader, each checked to be complete and to match its name.
+    /// Names of the results that a reader sees; checks that each is complete and matches its name.
     [[nodiscard]] std::set<std::string> wholeResults() const {
         std::set<std::string> names;
         std::error_code missing;
@@ -166,14 +166,14 @@ TEST_F(ExecutorFaults, AnAlteredOrMissingFileOfAResultDoesNotCountAsDone) {
     (void)runAll();
     const auto tableOf = [&](std::size_t i) { return out() / "runs" / runId(plan_[i].spec) / "frames.csv"; };
     fs::remove(tableOf(3));
-    std::ofstream(tableOf(4), std::ios::in) << 'F';  // as long as before
+    std::ofstream(tableOf(4), std::ios::in) << 'F';  // of the same length
     {
         const ResultsFolder results(out());
         EXPECT_EQ(results.runs().size(), std::size_t{runsInPlan} - 2);
         ASSERT_EQ(results.setAside().size(), 2u);
         const std::string said = results.setAside()[0] + results.setAside()[1];
         EXPECT_NE(said.find("frames.csv is missing"), std::string::npos) << said;
-        EXPECT_NE(said.find("frames.csv is not what the run wrote"), std::string::npos) << said;
+        EXPECT_NE(said.find("frames.csv was altered"), std::string::npos) << said;
     }
     EXPECT_EQ(runAll().done, 2u);
     EXPECT_EQ(wholeResults().size(), std::size_t{runsInPlan});

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 using testing::HasSubstr;
 
-/// A plan of four runs and a folder for their results. Children are shell scripts that copy what a run would write.
+/// A plan of four runs and a folder for their results. Children are shell scripts that copy the files of a run.
 class Executor : public testing::Test {
  protected:
     void SetUp() override {
@@ -99,7 +99,7 @@ TEST_F(Executor, RecordsWhatTheSuiteLeavesOutAndRunsItOnceTheSuiteWantsIt) {
     EXPECT_EQ(runAll(shell(good)).kept, 4u);
 }
 
-/// Waits until `count` runs are at work, or for 20 s, which fails.
+/// Waits until `count` runs are in progress; fails after 20 s.
 std::string meeting(const fs::path& place, int count) {
     return fmt::format(
         "touch {0}/$$; i=0; while [ $(ls {0} | wc -l) -lt {1} ]; do i=$((i+1)); [ $i -gt 2000 ] && exit 1; "
@@ -120,7 +120,7 @@ TEST_F(Executor, RunsSeveralAtATimeIfAsked) {
 
 TEST_F(Executor, OfSeveralAtATimeOneFaultOfTheMachineStopsAllAndLeavesNothingHalfDone) {
     fs::create_directory(folder_ / "there");
-    // One of three gives up once all three are there; the others would go on for ever.
+    // One of three aborts once all three have started; the others would never end.
     ExecutionOptions options = shell(
         meeting(folder_ / "there", 3) +
         fmt::format("mkdir {0} 2>/dev/null && {{ echo 'dustbench: aborted: no more ink' >&2; exit 2; }}; sleep 600",
@@ -197,13 +197,13 @@ TEST_F(Executor, ACrashIsAFailedRunAndThePlanGoesOn) {
 TEST_F(Executor, AHangIsATimeoutThatSaysHowFarItCame) {
     ExecutionOptions options =
         shell("case $2 in *" + runId(plan_[0].spec) + ") echo frames 3 9; sleep 600;; esac; " + good);
-    options.timeoutSeconds = 5;  // which the three good runs, a few milliseconds each, keep on a busy machine too
+    options.timeoutSeconds = 5;  // the three good runs take a few milliseconds each, even on a busy machine
     const ExecutionResult result = runAll(options);
     EXPECT_EQ(result.failed, 1u);
     EXPECT_EQ(result.done, 3u);
     const StoredRun run = readRunFile(out() / "runs" / runId(plan_[0].spec) / "run.json");
     EXPECT_EQ(run.status, RunStatus::timeout);
-    EXPECT_EQ(run.reason, "no end after 5 s (at frames 3 9)");
+    EXPECT_EQ(run.reason, "not finished after 5 s (at frames 3 9)");
 }
 
 TEST_F(Executor, AChildWithoutAResultHasFailed) {

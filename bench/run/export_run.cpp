@@ -21,7 +21,8 @@ namespace {
 void requireFramesWithinDrive(const RunSpec& spec, const World& world) {
     const std::int64_t last = lastFrameOfDrive(world, spec.warmup);
     if (spec.volumes->frames.last <= last) return;
-    const std::string allowed = last < 0 ? "none, the warm-up alone outlasts it" : fmt::format("frames 0..{}", last);
+    const std::string allowed =
+        last < 0 ? "none, because the warm-up is longer than the drive" : fmt::format("frames 0..{}", last);
     throw InputError(fmt::format("frames: frame {} is beyond the end of drive '{}' ({} s), allowed: {}",
                                  spec.volumes->frames.last, world.driveId(), world.driveSeconds(), allowed));
 }
@@ -36,7 +37,7 @@ ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const Run
     world.useDust(givenDust(spec));
     requireFramesWithinDrive(spec, world);
     if (const std::string reason = whyNotTaken(info, world.scene()); !reason.empty())
-        throw InputError(fmt::format("method {} cannot take scene '{}': {}", spec.method, spec.scene, reason));
+        throw InputError(fmt::format("method {} cannot show scene '{}': {}", spec.method, spec.scene, reason));
     record.drive = world.driveId();
 
     VolumeExporter exporter(*spec.volumes, folder);
@@ -67,8 +68,8 @@ ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const Run
 }  // namespace
 
 std::int64_t lastFrameOfDrive(const World& world, std::int64_t warmup) {
-    // Steps end at integer multiples of their length. The preroll ends at time 0, or one step later if it has no step
-    // of its own.
+    // Steps end at integer multiples of their length. The preroll ends at time 0, or one step later if it is shorter
+    // than a step.
     const std::int64_t stepsOfDrive = std::llround(world.driveSeconds() / stepSeconds);
     return stepsOfDrive - 1 - warmup - (stepsBeforeWarmup(world) - world.prerollSteps());
 }

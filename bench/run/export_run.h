@@ -12,7 +12,7 @@
 
 namespace dustbench::bench {
 
-/// The last frame whose time lies within the drive; negative if there is none.
+/// The last frame within the duration of the drive; negative if there is none.
 [[nodiscard]] std::int64_t lastFrameOfDrive(const World& world, std::int64_t warmup);
 
 struct ExportResult {

@@ -1,4 +1,4 @@
-// Forecasts of the duration of runs, by cell.
+// Forecasts of the duration of runs, by configuration (cell).
 //
 // Units: seconds.
 #pragma once
@@ -11,13 +11,13 @@
 
 namespace dustbench::bench {
 
-/// Identifies the cell of a run: equal for all its repetitions and seeds, whether judged or not. Another seed is
-/// another cloud, as large.
+/// Identifies the configuration of a run: equal for all repetitions and seeds, with and without metrics. Another seed
+/// gives another cloud of the same size.
 [[nodiscard]] std::string cellOf(RunSpec run);
 
 class ForecastByCell {
  public:
-    /// Sets the forecast for all repetitions and seeds of a cell.
+    /// Sets the forecast for all repetitions and seeds of a configuration.
     void set(const RunSpec& cell, const RunForecast& forecast);
     /// Includes the metrics only if the run has them. Negative if unknown.
     [[nodiscard]] double seconds(const RunSpec& run) const;

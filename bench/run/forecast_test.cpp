@@ -1,4 +1,5 @@
-// Forecasts of durations: the arithmetic, a started run compared with the whole, and a plan whose children are scripts.
+// Forecasts of durations: arithmetic, comparison of a started run with the complete one, and a plan with scripts as
+// children.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,8 +35,8 @@ TEST(RunForecast, CountsEveryFrameOnceForWhatItNeeds) {
 }
 
 TEST(RunForecast, BeginsEveryKindOfFrame) {
-    // One method that is judged by the exact picture, and one that needs a finer setting of itself, which is missing
-    // here.
+    // One method with the ground truth as its reference, and one that needs a finer setting of itself, which is
+    // missing here.
     std::map<bool, const MethodInfo*> kinds;
     for (const MethodInfo& info : methods())
         kinds.emplace(info.create(resolveParameters(info, {}).method)->stateHash().has_value(), &info);
@@ -77,7 +78,7 @@ TEST(ForecastByCell, MetricsCountForTheRunThatHasThem) {
     EXPECT_DOUBLE_EQ(remaining.seconds(), 20);
 }
 
-/// Three cells of two seeds; the children are shell scripts.
+/// Three configurations of two seeds; the children are shell scripts.
 class PlanForecasts : public testing::Test {
  protected:
     PlanForecasts() : results_(folder_.path()) {
@@ -113,7 +114,7 @@ TEST_F(PlanForecasts, OneRunOfEachCellIsBegunAndAllAreCounted) {
     EXPECT_DOUBLE_EQ(all.seconds, 30);
     EXPECT_TRUE(all.warnings.empty());
     EXPECT_EQ(std::filesystem::file_size(folder_.path() / "begun"), 3 * 2u);
-    EXPECT_TRUE(std::filesystem::is_empty(folder_.path() / "runs")) << "nothing is left of what was begun";
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path() / "runs")) << "a run that was only started left files";
 }
 
 TEST_F(PlanForecasts, AFailureAndARunThatTakesTooLongAreNamed) {

@@ -15,7 +15,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Half a step of an 8-bit image: smaller differences are invisible, and the order of additions on a GPU may vary.
+/// Half a step of an 8-bit image. Smaller differences are invisible; the order of additions on a GPU may vary.
 constexpr float sameColour = 0.5f / 255;
 
 /// Divided, not multiplied by 1e-6: 3497 ns becomes exactly 0.003497 and prints so.
@@ -112,7 +112,7 @@ void FrameRunner::waitForGpu() {
         device_.finish();
         return;
     }
-    // Waits for the previous frame: then this one and the next are the two in flight.
+    // Waits for the previous frame, so that this one and the next are the two in flight.
     gpu::Fence thisFrame = gpu::Fence::afterQueuedWork();
     lastFrame_.wait();
     lastFrame_ = std::move(thisFrame);
@@ -134,7 +134,7 @@ void FrameRunner::frame(std::int64_t index) {
     {
         const auto timing = clock.measure(Stage::simulate);
         world_.simulate();
-        (void)world_.dust();  // lights it, where the sun does
+        (void)world_.dust();  // lights it, if the sun does
     }
     const Frame now = host_.see(index, clock);
     {

@@ -27,14 +27,14 @@ namespace dustbench::bench {
 
 class FrameRunner {
  public:
-    /// Hosts the method of `spec` with `parameters`. `useGpuTimers`: set only if they were found to be reliable.
+    /// Hosts the method of `spec` with `parameters`. Set `useGpuTimers` only if GPU timers were found to be reliable.
     /// `world` and `device` must outlive the runner.
     FrameRunner(const RunSpec& spec, World& world, gpu::Device& device, const ParameterValues& parameters,
                 bool useGpuTimers);
 
     /// One step of the world without a picture; the method is updated if it requires that.
     void stepWithoutPicture(std::int64_t index);
-    /// One step whose picture is drawn twice: as in a timed frame, and again with a wait after every stage. Throws
+    /// One step whose picture is drawn twice, as in a timed frame and with a wait after every stage. Throws
     /// std::runtime_error if the two pictures differ, and as requireFinitePicture does.
     void verifiedStep(std::int64_t index);
     /// One step of the world and of the method, as in a frame but without drawing. For exports.
@@ -43,10 +43,10 @@ class FrameRunner {
     void frame(std::int64_t index);
     /// Waits for all frames in flight and completes their records.
     void drain();
-    /// Reads back the last frame. Throws SimulationError if its scene or layer has a value that is not finite.
+    /// Reads back the last frame. Throws SimulationError if its scene or layer contains a non-finite value.
     void requireFinitePicture() const;
 
-    /// Draws the state of the last `updateOnly`, outside all timing. For metrics. `withDetail`: also draws the layer
+    /// For metrics: draws the state of the last `updateOnly` outside all timing. `withDetail`: also draws the layer
     /// without the scene.
     [[nodiscard]] DrawnMoment drawn(bool withDetail);
     /// The last frame over its scene, linear.

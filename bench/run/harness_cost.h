@@ -1,4 +1,4 @@
-// Overhead of the harness itself, measured with the null method like any run.
+// Measures the overhead of the harness itself, with a run of the null method.
 #pragma once
 
 #include <functional>

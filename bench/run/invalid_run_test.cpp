@@ -1,4 +1,4 @@
-// Runs that did not show what was asked of them say so.
+// Runs that did not show what was requested are marked as invalid.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ TEST_F(InvalidRun, IsAnOctreeWhoseWorldCannotHoldTheTrail) {
         EXPECT_EQ(cellOf(whole, "invalid"), Value());
         EXPECT_EQ(cellOf(whole, "clipped"), Value(std::int64_t{0}));
         EXPECT_EQ(cellOf(whole, "world_edge_max"), Value(256.0));
-        fast["depth"] = "12";  // as deep as there are
+        fast["depth"] = "12";  // the maximum depth
         const RunRecord cut = measured(method, fast);
         ASSERT_THAT(cut.validity, testing::SizeIs(2));
         EXPECT_THAT(cut.validity[0], HasSubstr("clipped is "));
@@ -59,7 +59,7 @@ TEST_F(InvalidRun, IsAnOctreeWhoseWorldCannotHoldTheTrail) {
 TEST_F(InvalidRun, HasFewerParticlesThanWereAskedFor) {
     if (!hasMethod("billboard")) GTEST_SKIP() << "no billboards here";
     EXPECT_THAT(measured("billboard", {{"particles", "500"}, {"preroll", "1"}}).validity,
-                testing::ElementsAre(HasSubstr("asked for: 500")));
+                testing::ElementsAre(HasSubstr("requested: 500")));
     EXPECT_THAT(measured("billboard", {{"particles", "500"}}).validity, IsEmpty());
     if (hasMethod("null_method")) {
         EXPECT_THAT(measured("null_method", {{"particles", "500"}, {"preroll", "1"}}).validity, IsEmpty());
@@ -80,7 +80,7 @@ TEST_F(InvalidRun, HasAPressureThatRanOutOfCycles) {
     const RunRecord solved = measured("grid_fluid", fluid);
     EXPECT_THAT(solved.validity, IsEmpty());
     EXPECT_EQ(cellOf(solved, "pressure_unsolved"), Value(std::int64_t{0}));
-    fluid["tolerance"] = "1e-7";  // finer than floats
+    fluid["tolerance"] = "1e-7";  // below the precision of floats
     EXPECT_THAT(measured("grid_fluid", fluid).validity, testing::ElementsAre(HasSubstr("pressure_unsolved is ")));
     fluid["pressure"] = "jacobi";
     const RunRecord swept = measured("grid_fluid", fluid);

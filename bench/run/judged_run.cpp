@@ -69,8 +69,8 @@ void savePictures(const JudgedMoment& judged, const fs::path& folder) {
 
 std::string whyNotJudged(const JudgingPlan& plan, const Method& method) {
     if (!method.stateHash() || !plan.finer.empty()) return {};
-    return "no metrics: the method has a simulation of its own, and no finer setting is named to judge it against "
-           "([metric_reference.ID] in a suite)";
+    return "no metrics: the method runs its own simulation, so a suite must name a finer setting of it as the "
+           "reference ([metric_reference.ID])";
 }
 
 Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& device, const std::string& stateHash,
@@ -102,7 +102,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
             finer ? finer->moment(isMoment)
                   : exactMoment(world.scene(), view, drawn, world.unlitDust(), isMoment,
                                 isMoment && continuum ? std::optional(continuum->unlitDust()) : std::nullopt);
-        // Nothing emits dust from a file: it is its own continuum.
+        // Dust from a file has no emitters, so it is its own continuum.
         if (isMoment && !finer && !continuum) {
             exact.continuum = exact.layer;
             exact.ofOneColour = true;
@@ -128,7 +128,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
         judgement.frames.push_back(metrics);
     };
     const std::int64_t preroll = stepsBeforeWarmup(world);
-    // The continuum is stepped up to the last moment that needs it.
+    // Steps the continuum only to the last moment that needs it.
     const std::int64_t continuumSteps = preroll + spec.warmup + moments.back() + 1;
     std::int64_t steps = 0;
     const auto stepped = [&] {
@@ -142,8 +142,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
     replay({spec, runner, preroll, spec.frames - 1, stepped, judge, judging});
 
     if (const std::string again = fmt::format("{:016x}", world.stateHash()); again != stateHash)
-        throw std::runtime_error("metrics: the run's states gone through again end in " + again + ", not in " +
-                                 stateHash);
+        throw std::runtime_error("metrics: the replay of the run ends in state " + again + ", not in " + stateHash);
     judgement.popping = poppingJudge.summary().mean();
     judgement.poppingMax = poppingJudge.summary().maximum();
     judgement.poppingBySize = poppingJudge.bySize();

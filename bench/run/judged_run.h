@@ -1,5 +1,5 @@
-// Computes the metrics of a run after its timed frames: replays its states and compares some of them with exact
-// pictures.
+// Computes the metrics of a run after its timed frames: replays the run and compares some of its frames with reference
+// images.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +11,13 @@
 
 namespace dustbench::bench {
 
-/// Why a run cannot be judged; empty if it can. A method with its own simulation must be judged against a finer setting
+/// Why a run can have no metrics; empty if it can. The reference of a method with its own simulation is a finer setting
 /// of itself, which the suite must name.
 [[nodiscard]] std::string whyNotJudged(const JudgingPlan& plan, const Method& method);
 
-/// Judges the frames selected by `spec.judging`. Writes metrics.csv to `folder` and, for each moment, the method's
-/// picture and the reference (.png, .exr) and the FLIP map (.png) to images/. `stateHash` is the state after the run's
-/// last frame: throws std::runtime_error if the replay ends in another state.
+/// Computes the metrics of the frames selected by `spec.judging`. Writes metrics.csv to `folder` and, for each moment,
+/// the method's picture and the reference image (.png, .exr) and the FLIP map (.png) to images/. `stateHash` is the
+/// state after the run's last frame; throws std::runtime_error if the replay ends in another state.
 [[nodiscard]] Judgement judgeRun(const RunSpec& spec, const std::filesystem::path& folder, gpu::Device& device,
                                  const std::string& stateHash, const RunProgress& progress);
 

@@ -1,4 +1,4 @@
-// Flaws of whole runs, at the minimum level at which they can be distinguished.
+// Metrics of whole runs with flaws, at the lowest level at which the flaws can be detected.
 #include "bench/run/judged_run.h"
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ namespace {
 
 class JudgedRun : public testing::Test {
  protected:
-    /// The summary of a judged run with this many frames.
+    /// The summary of a run with metrics and this many frames.
     std::map<std::string, double> judged(const std::string& method, const ParameterTexts& parameters,
                                          std::int64_t frames = 31, const std::string& drive = "straight",
                                          const ParameterTexts& finer = {}, const std::string& scene = "plain") {
@@ -65,7 +65,7 @@ TEST_F(JudgedRun, LitDustIsJudgedByItsLightAndItsGapsStayAsTheyAre) {
     EXPECT_EQ(lit.at("gaps"), unlit.at("gaps"));
     EXPECT_TRUE(unlit.contains("psnr_continuum_db"));
     EXPECT_FALSE(lit.contains("psnr_continuum_db"));
-    // What remains is that puffs are lit, not points.
+    // The remaining difference: puffs are lit as a whole, not point by point.
     EXPECT_GT(lit.at("psnr_mask_db"), 35);
     EXPECT_LT(lit.at("psnr_mask_db"), 60);
     EXPECT_LT(nothing.at("psnr_mask_db"), lit.at("psnr_mask_db") - 15);
@@ -139,7 +139,7 @@ TEST_F(JudgedRun, LeavesARowAndThePicturesOfEachJudgedFrame) {
 TEST_F(JudgedRun, HasNoPoppingInAShortRunAndNoMetricsWithoutDust) {
     const std::string method = methods().front().id;
     EXPECT_FALSE(judged(method, {{"particles", "100"}}, 30).contains("popping"));
-    const auto empty = judged(method, {{"preroll", "0"}}, 31, "stop_and_go");  // it stands at first
+    const auto empty = judged(method, {{"preroll", "0"}}, 31, "stop_and_go");  // the vehicle stands at first
     for (const char* name :
          {"popping", "gaps", "spill", "components", "cutoff", "self_similarity", "quads_per_pixel", "psnr_db",
           "psnr_mask_db", "ssim_mask", "flip_mask", "rmse_linear_mask", "error_max", "banding"})

@@ -1,4 +1,4 @@
-// What the machine lacks is no fault of a run, and what a run's process does wrong is no fault of the others.
+// Running out of resources is not a failure of a run, and an error of a run's process does not affect other runs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 using testing::HasSubstr;
 
-/// A plan of three runs. The second one's process is the test's script, the others leave what a run would write.
+/// A plan of three runs. The process of the second is the test's script; the others write the files of a run.
 class MachineFaults : public testing::Test {
  protected:
     void SetUp() override {
@@ -64,7 +64,7 @@ class MachineFaults : public testing::Test {
     [[nodiscard]] std::size_t entries() const {
         return static_cast<std::size_t>(std::distance(fs::directory_iterator(out() / "runs"), {}));
     }
-    /// The plan stops with these words, keeps the first run alone, and goes on when it is called again.
+    /// The plan stops with this message, keeps only the first run, and continues when it is called again.
     void expectAborted(const std::string& script, const std::string& words) {
         try {
             (void)run(script);
@@ -89,7 +89,7 @@ TEST_F(MachineFaults, ARunThatTheMachineAbortsIsNotAFailedOne) {
 }
 
 TEST_F(MachineFaults, AFolderThatTakesNoMoreFilesIsNotAFailedRun) {
-    // The limit is this process's: its probe for the run that failed does not fit.
+    // The limit applies to this process, whose probe after the failed run does not fit.
     rlimit before{};
     getrlimit(RLIMIT_FSIZE, &before);
     const auto formerly = signal(SIGXFSZ, SIG_IGN);
@@ -104,7 +104,7 @@ TEST_F(MachineFaults, NoMoreOpenFilesIsSaidSo) {
     ResultsFolder results(out());
     rlimit before{};
     getrlimit(RLIMIT_NOFILE, &before);
-    const rlimit few{static_cast<rlim_t>(dup(0)), before.rlim_max};  // the next file is one too many
+    const rlimit few{static_cast<rlim_t>(dup(0)), before.rlim_max};  // the next open file exceeds the limit
     setrlimit(RLIMIT_NOFILE, &few);
     ExecutionOptions options;
     options.command = [](const fs::path&, const fs::path&) -> std::vector<std::string> { return {"/bin/true"}; };
@@ -120,7 +120,7 @@ TEST_F(MachineFaults, AnotherRunsResultIsNotPublished) {
     EXPECT_EQ(result.failed, 1u);
     EXPECT_EQ(second().runId, runId(plan_[1].spec));
     EXPECT_EQ(second().status, RunStatus::failed);
-    EXPECT_THAT(second().reason, HasSubstr("left the result of another run, '" + runId(plan_[0].spec)));
+    EXPECT_THAT(second().reason, HasSubstr("wrote the result of another run, '" + runId(plan_[0].spec)));
 }
 
 TEST_F(MachineFaults, AMalformedResultFailsItsRunAlone) {
@@ -128,28 +128,28 @@ TEST_F(MachineFaults, AMalformedResultFailsItsRunAlone) {
         const ExecutionResult result = run(std::string("echo '") + text + "' > $1/run.json");
         EXPECT_EQ(result.failed, 1u) << text;
         EXPECT_EQ(second().status, RunStatus::failed) << text;
-        EXPECT_THAT(second().reason, HasSubstr("left a result that cannot be read")) << text;
+        EXPECT_THAT(second().reason, HasSubstr("wrote a result that cannot be read")) << text;
     }
     EXPECT_EQ(run(good()).failed, 0u);
 }
 
 TEST_F(MachineFaults, ARunWithoutAWordIsNamedAllTheSame) {
     (void)run("exit 3");
-    EXPECT_EQ(second().reason, "exit code 3, without a word");
+    EXPECT_EQ(second().reason, "exit code 3, without an error message");
     try {
         (void)run("exit 3", {}, true);
         FAIL() << "nothing thrown";
     } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(), "the run ended with exit code 3 and without a word");
+        EXPECT_STREQ(error.what(), "the run ended with exit code 3 and no error message");
     }
 }
 
 TEST_F(MachineFaults, NoDescendantOutlivesItsRun) {
     const fs::path pids = folder_.path() / "pids";
-    // In a session of their own, twice: the process group's signal does not reach them.
+    // In their own sessions, twice, so that the signal to the process group does not reach them.
     const std::string left = "setsid sh -c 'echo $$ >> " + pids.string() + "; setsid sh -c \"echo \\$\\$ >> " +
                              pids.string() + "; exec sleep 600\" & exec sleep 600' & ";
-    std::ofstream(pids).close();  // to be counted before either process starts
+    std::ofstream(pids).close();  // exists before either process starts, to be counted
     EXPECT_EQ(run(left + "while [ $(wc -l < " + pids.string() + ") -lt 2 ]; do sleep 0.01; done; " + good()).done, 3u);
     std::ifstream file(pids);
     int count = 0;

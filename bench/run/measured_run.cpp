@@ -60,14 +60,14 @@ class RunVolumes {
         if (index == exporter_->settings().frames.first) leaveOutImpossible(volume);
         exporter_->write({index, spec_.method, volume, world_.scene(), world_.state(), world_.dust()});
     }
-    /// For summary.csv; empty if no volume was requested.
+    /// Columns of summary.csv; empty if no volume was requested.
     [[nodiscard]] std::string firstSeries() const {
         if (!exporter_ || exporter_->seriesFiles().empty()) return {};
         return "runs/" + runId(spec_) + "/volumes/" + exporter_->seriesFiles().front().filename().string();
     }
 
  private:
-    /// A suite requests the same formats from all its methods: an unsupported one is not an error unless none remain.
+    /// A suite requests the same formats from all methods, so an unsupported one is an error only if none remain.
     void leaveOutImpossible(const CollectedVolume& volume) {
         const std::vector<VolumeFormat> asked = exporter_->settings().formats;
         std::vector<std::string> reasons;
@@ -94,7 +94,7 @@ DustCount dustCount(const RunSpec& spec, const FrameRunner& runner) {
     return {std::stoll(spec.parameters.at("particles")), median(counts), isShown};
 }
 
-/// Moments of a run that cannot be judged: their pictures are stored anyway, for inspection.
+/// Moments of a run that can have no metrics: their pictures are stored anyway, for inspection.
 std::vector<std::int64_t> momentsToShow(const RunSpec& spec, const Method& method) {
     if (!spec.judging || !spec.judging->keepsPictures || whyNotJudged(*spec.judging, method).empty()) return {};
     return spec.judging->momentsOf(spec.frames);
@@ -169,11 +169,11 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     record.provenance.device = device.info();
     WholeRun whole;
     whole.softwareRenderer = device.isSoftware();
-    // Without a GPU there are no GPU times, and the self-test would compile a shader.
+    // Without a GPU there are no GPU times, and the self-test would compile a shader for nothing.
     record.provenance.gpuTimersTrusted = !whole.softwareRenderer && gpu::timerQueriesAreTrue(device);
     std::optional<FrameRunner> timed;
     FrameRunner& runner = timed.emplace(spec, world, device, parameters.method, record.provenance.gpuTimersTrusted);
-    recordInputs(world, parameters.method, read, record.provenance);  // the method's files too
+    recordInputs(world, parameters.method, read, record.provenance);  // includes the method's files
     RunVolumes volumes(spec, folder, world, record.provenance.warnings);
     EnergyMeter energy(packageEnergy(), gpuEnergy(device.info().renderer));
     ClockWatch clock(spec.timed ? gpuClock(device.info().renderer) : nullptr);
@@ -188,7 +188,7 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
 
     if (world.state().timeSeconds > world.driveSeconds() + 0.5 * stepSeconds)
         record.provenance.warnings.push_back(
-            fmt::format("the run ends at {:.1f} s, the drive at {:.1f} s: its last row was held",
+            fmt::format("the run ends at {:.1f} s, the drive at {:.1f} s: its last row applies to the rest",
                         world.state().timeSeconds, world.driveSeconds()));
 
     std::vector<double> frameMs;

@@ -12,7 +12,7 @@
 
 namespace dustbench::bench {
 
-/// `phase` is `preroll`, `warmup`, `frames` or `metrics`; the steps of `metrics` are those of the other three together.
+/// `phase` is `preroll`, `warmup`, `frames` or `metrics`; `metrics` has as many steps as the other three together.
 /// Called before each step, and once at the end of `frames` and `metrics`.
 using RunProgress = std::function<void(std::string_view phase, std::int64_t done, std::int64_t total)>;
 

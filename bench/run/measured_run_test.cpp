@@ -1,4 +1,4 @@
-// What is kept of a run.
+// Files and records of a run.
 #include "bench/run/measured_run.h"
 
 #include <gmock/gmock.h>
@@ -68,7 +68,7 @@ TEST(MeasuredRun, LitDustIsShownByMethodsThatTakeItAlone) {
     EXPECT_EQ(whyNotTaken(refuses, scene), "");
     scene.lights.onDust = true;
     EXPECT_EQ(whyNotTaken(takes, scene), "");
-    EXPECT_EQ(whyNotTaken(refuses, scene), "shows no lit dust (light=sun)");
+    EXPECT_EQ(whyNotTaken(refuses, scene), "does not support lit dust (light=sun)");
     takes.cannotTake = [](const scene::Scene&) { return "needs a vehicle"; };
     EXPECT_EQ(whyNotTaken(takes, scene), "needs a vehicle");
 }

@@ -18,7 +18,7 @@ Value asCell(const FactValue& value) {
 }  // namespace
 
 std::string whyNotTaken(const MethodInfo& method, const scene::Scene& scene) {
-    if (scene.lights.onDust && !method.takesLights) return "shows no lit dust (light=sun)";
+    if (scene.lights.onDust && !method.takesLights) return "does not support lit dust (light=sun)";
     return method.cannotTake ? method.cannotTake(scene) : "";
 }
 

@@ -30,10 +30,10 @@ class MethodHost {
     MethodHost(const World& world, gpu::Device& device, const MethodInfo& info, const ParameterValues& parameters,
                int width, int height);
 
-    /// Pictures have this size from now on. The method's state stays as it is.
+    /// Sets the size of the pictures. Does not change the state of the method.
     void resize(int width, int height);
 
-    /// The current state of the world as the method sees it: valid until the next call or step. `clock` must outlive
+    /// The current state of the world as the method sees it. Valid until the next call or step; `clock` must outlive
     /// it.
     [[nodiscard]] Frame see(std::int64_t index, const StageClock& clock);
     void update(const Frame& frame);
@@ -43,9 +43,9 @@ class MethodHost {
     /// Results of the last `draw`, linear: the method's layer, and the composed picture as it would be displayed.
     [[nodiscard]] pictures::Image layer() const;
     [[nodiscard]] pictures::Image result() const;
-    /// The composed picture of the last `draw`, display-encoded; valid as long as the host.
+    /// The composed picture of the last `draw`, display-encoded. Valid for the lifetime of the host.
     [[nodiscard]] const gpu::Texture& display() const { return composite_->result(); }
-    /// What it is composed of, linear: the opaque scene and its reversed depth, and the premultiplied layer.
+    /// The parts of the picture, linear: the opaque scene with its reversed depth, and the premultiplied layer.
     [[nodiscard]] const gpu::Texture& sceneColour() const { return scene_->colour(); }
     [[nodiscard]] const gpu::Texture& sceneDepth() const { return scene_->depth(); }
     [[nodiscard]] const gpu::Texture& layerColour() const { return layer_->colour(); }
@@ -56,7 +56,7 @@ class MethodHost {
 
     /// Updates the facts that are maxima over all recorded frames. Call after a recorded frame, untimed.
     void keepFacts(const Frame& frame);
-    /// All facts reported by the method, by column; those of the last frame are queried now.
+    /// All facts that the method reports, by column; facts of the last frame are queried now.
     [[nodiscard]] Columns facts(const Frame& lastFrame);
 
     [[nodiscard]] const Method& method() const { return *method_; }
@@ -76,7 +76,7 @@ class MethodHost {
     std::unique_ptr<draw::Composite> composite_;
     gpu::Texture noScene_;  ///< an empty depth image, created on first use
     int width_, height_;
-    /// False for a method with a simulation of its own: it does not show the shared dust.
+    /// False for a method with its own simulation, which does not show the shared dust.
     bool dustThrowsShadow_ = false;
     scene::View view_{};
     Facts ofFrame_;

@@ -41,7 +41,7 @@ PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& re
     const std::vector<const PlannedRun*> toDo = runsToDo(plan, results, options);
     PlanForecast result;
     result.runs = toDo.size();
-    // One run per cell, with metrics if any of its runs has them.
+    // One run per configuration, with metrics if any of its runs has them.
     std::map<std::string, const PlannedRun*> cells;
     for (const PlannedRun* run : toDo) {
         if (!run->skip.empty()) continue;
@@ -73,8 +73,9 @@ PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& re
             return result;
         }
         if (!outcome.succeeded() || !forecast) {
-            // The run itself is likely to fail in the same way.
-            result.warnings.push_back(nameOf(*run) + ": " + (outcome.succeeded() ? "said nothing" : outcome.reason()));
+            // The run will probably fail in the same way.
+            result.warnings.push_back(nameOf(*run) + ": " +
+                                      (outcome.succeeded() ? "printed no forecast" : outcome.reason()));
             forecast = RunForecast{std::chrono::duration<double>(Clock::now() - start).count(), 0};
         } else if (options.timeoutSeconds > 0 && forecast->seconds() > options.timeoutSeconds) {
             result.warnings.push_back(fmt::format("{}: will take {}, allowed: {}", nameOf(*run),

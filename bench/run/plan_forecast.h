@@ -1,4 +1,4 @@
-// Forecasts the duration of a plan by starting a run of each cell (run_forecast.h) in its own process.
+// Forecasts the duration of a plan by starting one run of each configuration (run_forecast.h) in its own process.
 //
 // Threads: call from the main thread.
 #pragma once
@@ -14,12 +14,12 @@ namespace dustbench::bench {
 struct PlanForecast {
     std::size_t runs = 0;  ///< runs still to do
     double seconds = 0;    ///< total, including the pauses between them
-    /// A sentence for each cell that failed to start, or is expected to exceed the time limit.
+    /// A sentence for each configuration that failed to start or will probably exceed the time limit.
     std::vector<std::string> warnings{};
     bool aborted = false;
 };
 
-/// The line that a forecasting process prints on stdout and that is parsed from it.
+/// The line that a forecasting process prints on stdout.
 [[nodiscard]] std::string forecastLine(const RunForecast& forecast);
 
 /// Sets `options.forecasts` for all runs to do; the listener hears `begun 3 48`.

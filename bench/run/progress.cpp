@@ -15,7 +15,7 @@ struct Phase {
     std::string name;
     long done = 0, total = 0;
 
-    /// `, 9 s left`, once a part of it has been done for a second; else empty.
+    /// `, 9 s left` if the phase has run for a second and done at least one step; else empty.
     [[nodiscard]] std::string left(double seconds) const {
         if (done <= 0 || done >= total || seconds < 1) return {};
         return fmt::format(", {} left",

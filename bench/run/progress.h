@@ -22,10 +22,10 @@ namespace dustbench::bench {
                                            int repetitions, double etaSeconds);
 
 /// For `frames 12 120`, which is 10 %: `[#####…] frames 12/120` on a terminal `width` columns wide. Empty for other
-/// lines. `phaseSeconds`: how long this phase has taken, from which follows how long it will: `frames 12/120, 9 s
-/// left`.
+/// lines. `phaseSeconds`: the duration of this phase so far, from which the remaining time is estimated:
+/// `frames 12/120, 9 s left`.
 [[nodiscard]] std::string progressBar(std::string_view line, int width, double phaseSeconds = 0);
-/// `frames: 12 of 120, 9 s left`, for logs; the line itself if it is no such line.
+/// `frames: 12 of 120, 9 s left`, for logs. Returns other lines unchanged.
 [[nodiscard]] std::string phaseSentence(std::string_view line, double phaseSeconds = 0);
 /// `frames` of `frames 12 120`.
 [[nodiscard]] std::string_view phaseOf(std::string_view line);

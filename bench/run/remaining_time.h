@@ -21,8 +21,8 @@ class RemainingTime {
 
     /// Records the duration of the run at `position` in the list, including the pause before it.
     void ended(std::size_t position, double seconds);
-    /// Total of all remaining runs: a run counts as the mean of its cell's finished repetitions; if there are none, as
-    /// its forecast; without one, as the mean of all finished runs. Negative if some run has no estimate.
+    /// Total of all remaining runs. The estimate of a run is the mean of the finished repetitions of its configuration;
+    /// without any, its forecast; without that, the mean of all finished runs. Negative if a run has no estimate.
     [[nodiscard]] double seconds() const;
 
  private:
@@ -32,7 +32,7 @@ class RemainingTime {
         [[nodiscard]] double mean() const { return sum / static_cast<double>(count); }
     };
     struct Run {
-        std::string cell;     ///< identifies the cell
+        std::string cell;     ///< identifies the configuration
         double forecast = 0;  ///< including the pause before it; negative: none
         bool ended = false;
     };

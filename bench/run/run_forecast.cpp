@@ -16,7 +16,7 @@ namespace dustbench::bench {
 namespace fs = std::filesystem;
 namespace {
 
-/// Frames are run until both are reached; a shorter run ends by itself.
+/// Frames run until both limits are reached, or until the run ends.
 constexpr std::int64_t minimumFrames = 4;
 constexpr double minimumSeconds = 0.3;
 
@@ -51,7 +51,7 @@ FramesBegun beginFrames(RunSpec spec, const fs::path& folder) {
 
 /// The metrics of the shortest run that has every kind of frame: plain ones, a moment, the beginning of a stretch.
 MetricsBegun beginMetrics(RunSpec spec, const fs::path& folder, gpu::Device& device) {
-    // A second moment after the end, so that work done up to the last moment is included.
+    // A second moment after the end, so that work that continues up to the last moment is included.
     constexpr std::int64_t moment = 1, stretch = 2, end = 4;
     spec.warmup = 1;
     spec.frames = stretch + PoppingSummary::minimumPairs + 1;

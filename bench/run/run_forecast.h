@@ -1,5 +1,5 @@
-// Forecasts the duration of a run by starting it: its real start and preroll, then a few frames and one of each kind
-// that its metrics need, each scaled by how often it occurs in the whole run.
+// Forecasts the duration of a run by starting it: measures its start and preroll, a few frames, and one frame of each
+// kind that its metrics need, each multiplied by its number in the complete run.
 //
 // Units: seconds.
 #pragma once
@@ -26,14 +26,14 @@ struct FramesBegun {
 struct MetricsBegun {
     double untilFrames = 0;      ///< start and preroll
     double perPlainFrame = 0;    ///< a frame that is only replayed
-    double perMoment = 0;        ///< a frame that is judged individually
-    double perStretchFrame = 0;  ///< a frame of the stretch for popping
+    double perMoment = 0;        ///< a frame with all metrics
+    double perStretchFrame = 0;  ///< a frame of the consecutive frames for popping
 };
-/// The whole run's time.
+/// The time of the complete run.
 [[nodiscard]] RunForecast extrapolate(const RunSpec& spec, const FramesBegun& frames, const MetricsBegun& metrics);
 
-/// Starts the run in this process, which must not be used for anything else; the files in `folder` are to be discarded.
-/// Throws as measureRun does.
+/// Starts the run in this process, which must do nothing else. Discard the files in `folder`. Throws as measureRun
+/// does.
 [[nodiscard]] RunForecast forecastRun(const RunSpec& spec, const std::filesystem::path& folder);
 
 }  // namespace dustbench::bench

@@ -13,7 +13,7 @@ void withThreads(int threads, const std::function<void()>& work) {
         work();
         return;
     }
-    // The software rasteriser is included in the limit, not added to it, whatever the caller's environment says.
+    // The limit includes the software rasteriser's threads, whatever the caller's environment says.
     setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
     const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
                                             static_cast<std::size_t>(threads));

@@ -6,7 +6,7 @@
 namespace dustbench::bench {
 
 /// Calls `work` with at most `threads` threads; 0: one per core. The limit affects the rasteriser only if OpenGL is not
-/// yet in use; it replaces that of the environment (`LP_NUM_THREADS`).
+/// in use yet; it overrides the environment variable `LP_NUM_THREADS`.
 void withThreads(int threads, const std::function<void()>& work);
 
 }  // namespace dustbench::bench

@@ -18,7 +18,7 @@ TEST(ThreadLimit, ReplacesThatOfTheEnvironmentForTheRasteriser) {
     };
     EXPECT_EQ(limitWith(1), "1");
     EXPECT_EQ(limitWith(2), "2");
-    EXPECT_EQ(limitWith(0), "7");  // no limit is asked for
+    EXPECT_EQ(limitWith(0), "7");  // no limit requested
 }
 
 }  // namespace

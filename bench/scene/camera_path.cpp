@@ -53,14 +53,14 @@ scene::Camera cameraOf(const Pose& pose) {
     scene::Camera camera;
     camera.eye = {pose[0], pose[1], pose[2]};
     camera.target = {pose[3], pose[4], pose[5]};
-    if (camera.eye == camera.target) camera.target.z -= 1;  // between two keys they may meet
+    if (camera.eye == camera.target) camera.target.z -= 1;  // between two keys they may coincide
     const glm::dvec3 along = glm::normalize(camera.target - camera.eye);
     if (glm::length(glm::cross(along, camera.up)) < 1e-6) camera.up = {1, 0, 0};
     camera.verticalFieldOfView = glm::radians(pose[6]);
     return camera;
 }
 
-/// dp/dt at key i: of the parabola through it and its neighbours; at an end, of the chord.
+/// dp/dt at key i: that of the parabola through it and its neighbours; at an end, that of the chord.
 Pose velocityAt(const std::vector<CameraKey>& keys, std::size_t i) {
     const auto chord = [&](std::size_t from) {
         Pose slope = poseOf(keys[from + 1]);
@@ -83,16 +83,16 @@ CameraPath fromTable(const files::CsvTable& table, const std::string& name) {
     std::vector<std::string> names = table.header(), wanted(columns.begin(), columns.end());
     std::ranges::sort(names);
     std::ranges::sort(wanted);
-    if (names != wanted) throw InputError(name + ":1: got other columns than a camera path has, expected " + header());
+    if (names != wanted) throw InputError(name + ":1: not the columns of a camera path, expected " + header());
     if (table.rows() == 0) throw InputError(name + ":2: the camera path has no rows, expected one or more");
     std::vector<CameraKey> keys;
     for (std::size_t row = 0; row < table.rows(); ++row) {
         keys.push_back(keyOf(table, row));
         if (keys.back().eye == keys.back().target)
-            throw InputError(table.where(row) + "the target is the eye, expected another point");
+            throw InputError(table.where(row) + "the target equals the eye, expected another point");
         if (row > 0 && keys[row].seconds <= keys[row - 1].seconds)
             throw InputError(table.where(row) + "column 'time_s': got " + table.cell(row, "time_s") +
-                             ", expected more than " + files::csvNumber(keys[row - 1].seconds) + " of the row before");
+                             ", expected more than " + files::csvNumber(keys[row - 1].seconds) + " (previous row)");
     }
     return CameraPath(std::move(keys));
 }

@@ -1,7 +1,7 @@
 // A key-framed camera path: eye, target and field of view over time.
 //
-// Through the keys as a piecewise cubic with continuous velocity; held before the first key and after the last. One key
-// is a camera that stands.
+// A piecewise cubic through the keys with continuous velocity; constant before the first key and after the last. One
+// key gives a fixed camera.
 // Units: s, m; the field of view in degrees, as in the file, so that a path written and read again is the same.
 // Frame: world. Time 0 is the start of the drive.
 #pragma once
@@ -34,21 +34,21 @@ class CameraPath {
     /// A .csv file, or the rows themselves on one line, separated by ';'.
     static CameraPath read(const std::string& fileOrRows);
 
-    /// One key or more, by ascending time; throws std::invalid_argument otherwise.
+    /// One or more keys, by ascending time; throws std::invalid_argument otherwise.
     explicit CameraPath(std::vector<CameraKey> keys);
 
     [[nodiscard]] const std::vector<CameraKey>& keys() const { return keys_; }
     [[nodiscard]] scene::Camera at(double seconds) const;
 
     [[nodiscard]] std::string csv() const;
-    /// For read(): the rows on one line.
+    /// The rows on one line, as read() accepts them.
     [[nodiscard]] std::string rows() const;
 
  private:
     std::vector<CameraKey> keys_;
 };
 
-/// True if read() takes this text for a file.
+/// True if read() treats this text as a file.
 [[nodiscard]] bool isCameraFile(std::string_view fileOrRows);
 
 }  // namespace dustbench::bench

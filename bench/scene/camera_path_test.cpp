@@ -65,8 +65,8 @@ TEST(CameraPath, IsTheParabolaThatItsKeysLieOn) {
     std::vector<CameraKey> keys;
     for (const double t : {0.0, 0.7, 1.0, 2.5, 4.0}) keys.push_back({t, exact(t), {0, 0, -100}, 50});
     const CameraPath path(keys);
-    for (double t = 0.7; t <= 2.5; t += 0.05) expectNear(path.at(t).eye, exact(t), 1e-9);  // where both neighbours are
-    EXPECT_GT(glm::distance(path.at(3.2).eye, exact(3.2)), 1e-3);  // the last chord is not its tangent
+    for (double t = 0.7; t <= 2.5; t += 0.05) expectNear(path.at(t).eye, exact(t), 1e-9);  // with two neighbours
+    EXPECT_GT(glm::distance(path.at(3.2).eye, exact(3.2)), 1e-3);  // the tangent at the end is the chord's
 }
 
 TEST(CameraPath, WrittenAndReadAgainIsTheSame) {
@@ -92,10 +92,10 @@ TEST(CameraPath, SaysWhatIsWrongWithItsInput) {
     EXPECT_THAT(message("nowhere/path.csv"), HasSubstr("nowhere/path.csv"));
     EXPECT_THAT(message("0,1,2,3"), HasSubstr("4 cells, expected 8"));
     EXPECT_THAT(message("0,1,2,3,4,5,6,200"), HasSubstr("column 'fov_deg': got 200, expected a number 5..150"));
-    EXPECT_THAT(message("0,1,2,3,1,2,3,50"), HasSubstr("the target is the eye"));
-    EXPECT_THAT(message("1,1,2,3,4,5,6,50;1,1,2,3,4,5,7,50"), HasSubstr("expected more than 1 of the row before"));
+    EXPECT_THAT(message("0,1,2,3,1,2,3,50"), HasSubstr("the target equals the eye"));
+    EXPECT_THAT(message("1,1,2,3,4,5,6,50;1,1,2,3,4,5,7,50"), HasSubstr("expected more than 1 (previous row)"));
     EXPECT_THAT(inputError([] { (void)CameraPath::parseText("time_s,x\n0,1\n", "p.csv"); }),
-                HasSubstr("p.csv:1: got other columns"));
+                HasSubstr("p.csv:1: not the columns"));
     EXPECT_THAT(inputError([] { (void)CameraPath::parseText(header, "p.csv"); }), HasSubstr("no rows"));
     EXPECT_THROW(CameraPath({}), std::invalid_argument);
 }

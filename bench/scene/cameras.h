@@ -1,4 +1,5 @@
-// The cameras of a scene: fixed, chasing the vehicle, orbiting it, or beside a wheel. Pure functions of state and time.
+// The cameras of a scene: fixed, chasing the vehicle, orbiting it, or next to a wheel. Pure functions of state and
+// time.
 //
 // Units: SI, radians. Frame: world, or the vehicle's heading frame (+X forward, +Y up, +Z right) where stated.
 #pragma once
@@ -39,7 +40,7 @@ struct OrbitCamera {
     double verticalFieldOfView = 0.9;
 };
 
-/// Rides along, without smoothing, and looks at the dust that a rear wheel raises.
+/// Moves with the vehicle, without smoothing, and looks at the dust that a rear wheel raises.
 struct WheelCamera {
     glm::dvec3 offset{0.8, 0.55, 2.9};
     glm::dvec3 lookAt{-1.6, 0.4, 0.6};

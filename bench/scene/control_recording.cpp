@@ -10,8 +10,8 @@ namespace dustbench::bench {
 
 namespace {
 
-/// The times at which a drive is asked for a row: for the pedals of the step that begins there, k·Δt, and for the
-/// steering of the one that ends there, (k−1)·Δt + Δt. Rounded, they may differ, and between two rows values are mixed.
+/// The times at which a drive is evaluated: k·Δt for the pedals of the step that begins there, and (k−1)·Δt + Δt for
+/// the steering of the step that ends there. Rounded, they may differ, and between two rows values are interpolated.
 std::set<double> timesOf(std::size_t row) {
     const auto k = static_cast<double>(row);
     return row == 0 ? std::set{0.0} : std::set{k * stepSeconds, (k - 1) * stepSeconds + stepSeconds};

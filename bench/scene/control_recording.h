@@ -1,6 +1,6 @@
 // Records the controls of a world's steps and writes them as a drive file.
 //
-// Played from the same start, the file gives bit-identical controls, and so the same state hash.
+// Played back from the same start, the file gives bit-identical controls, and so the same state hash.
 #pragma once
 
 #include <string>
@@ -16,8 +16,8 @@ class ControlRecording {
     void add(const Controls& controls) { steps_.push_back(controls); }
     [[nodiscard]] std::size_t steps() const { return steps_.size(); }
     /// `time_s,throttle,brake,steer`. A drive's pedals apply from the beginning of a step; its steering is the value at
-    /// the end of the step. A time that two roundings write in two ways has two equal rows. Throws std::logic_error if
-    /// nothing was recorded.
+    /// the end of the step. A time that rounds to two values gets two equal rows. Throws std::logic_error if nothing
+    /// was recorded.
     [[nodiscard]] std::string csv() const;
 
  private:

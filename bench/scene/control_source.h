@@ -20,7 +20,7 @@ class ControlSource {
     [[nodiscard]] virtual double initialSpeed() const { return 0; }
     /// Duration; infinite if it does not end.
     [[nodiscard]] virtual double seconds() const = 0;
-    /// A copy that makes the same decisions from here on, used to drive ahead.
+    /// A copy that makes the same decisions from now on, used to drive ahead.
     [[nodiscard]] virtual std::unique_ptr<ControlSource> clone() const = 0;
 };
 

@@ -7,7 +7,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// The result of `read`, or the reason it failed: one broken file must not hide the others.
+/// The result of `read`, or the reason why it failed: a broken file must not hide the others.
 template <typename Read>
 std::string descriptionOr(const Read& read) {
     try {

@@ -10,10 +10,10 @@ namespace dustbench::bench {
 struct DataEntry {
     std::string id;
     std::string description;  ///< for an unreadable file: the reason
-    std::int64_t panels = 0;  ///< of a scene
+    std::int64_t panels = 0;  ///< for a scene
 };
 
-/// Sorted by id; the description is a key of the scene file.
+/// Sorted by id; descriptions are keys of the scene files.
 [[nodiscard]] std::vector<DataEntry> listScenes();
 /// Sorted by id; the descriptions are in data/drives/drives.toml.
 [[nodiscard]] std::vector<DataEntry> listDrives();

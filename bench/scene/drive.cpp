@@ -60,7 +60,7 @@ Drive Drive::fromTable(const files::CsvTable& table, const std::string& name) {
                              ", expected 0 in the first row");
         if (row > 0 && time <= drive.times_.back())
             throw InputError(table.where(row) + "column 'time_s': got " + table.cell(row, "time_s") +
-                             ", expected more than " + files::csvNumber(drive.times_.back()) + " of the row before");
+                             ", expected more than " + files::csvNumber(drive.times_.back()) + " (previous row)");
         drive.times_.push_back(time);
         drive.steers_.push_back(ranged(table, row, "steer", -1, 1));
         if (bySpeed) {

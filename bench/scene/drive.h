@@ -37,8 +37,8 @@ class Drive {
     [[nodiscard]] double at(const std::vector<double>& values, double timeSeconds) const;
 
     std::vector<double> times_, steers_;
-    std::vector<double> speeds_;              ///< of a drive by target speed
-    std::vector<double> throttles_, brakes_;  ///< of a drive by pedals
+    std::vector<double> speeds_;              ///< for drives by target speed
+    std::vector<double> throttles_, brakes_;  ///< for drives by pedals
 };
 
 }  // namespace dustbench::bench

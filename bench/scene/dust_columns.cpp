@@ -13,7 +13,7 @@ namespace {
 struct Quantity {
     std::string_view key;
     std::size_t parts;
-    std::vector<std::string> names;  ///< that are tried, in this order
+    std::vector<std::string> names;  ///< tried in this order
 };
 
 const std::vector<Quantity>& quantities() {
@@ -44,7 +44,7 @@ std::vector<std::string> split(std::string_view text, char separator) {
     }
 }
 
-/// How the three columns of a vector are named by those who write tables.
+/// The usual names for the three columns of a vector.
 std::vector<std::vector<std::string>> spellings(const std::string& name) {
     if (name.find('+') != std::string::npos) return {split(name, '+')};
     std::vector<std::vector<std::string>> all;
@@ -57,7 +57,7 @@ std::vector<std::vector<std::string>> spellings(const std::string& name) {
     return all;
 }
 
-/// The column of that name, or three of one number each; of the four numbers of a colour the first three.
+/// The column of that name, or three columns of one number each; only the first three of a colour's four numbers.
 std::vector<ColumnNumbers::Part> partsOf(const volumes::PointTable& table, const std::string& name,
                                          const Quantity& quantity) {
     const std::size_t parts = quantity.parts;
@@ -81,7 +81,7 @@ std::vector<ColumnNumbers::Part> partsOf(const volumes::PointTable& table, const
     return found;
 }
 
-/// True for one of three columns that together are a vector by a usual name: `R` of `R`, `G` and `B` is no radius.
+/// True for one of three columns that form a vector by a usual name: `R` with `G` and `B` is not a radius.
 bool isPartOfVector(const volumes::PointTable& table, const std::string& name) {
     const auto isThere = [&](const std::string& each) {
         const volumes::PointColumn* const column = table.find(each);
@@ -147,7 +147,7 @@ void DustColumns::set(const std::string& key, const std::string& value) {
         const std::optional<double> number = files::numberOf(value);
         if (!number || *number < 1e-6 || *number > 1e6)
             throw InputError(
-                fmt::format("--dust-columns: scale: got '{}', allowed: 1e-6..1e6, metres of a unit", value));
+                fmt::format("--dust-columns: scale: got '{}', allowed: 1e-6..1e6, metres per unit of length", value));
         metresPerUnit_ = *number;
     }
 }

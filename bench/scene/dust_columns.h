@@ -1,7 +1,7 @@
-// Which columns of a file mean what: positions, radius, opacity … of particles that another program wrote.
+// Maps the columns of a particle file from another program to quantities: positions, radius, opacity …
 //
-// A setting is `key=NAME`, a column; `key=A+B+C`, three columns for a vector; or `key=0.5`, one number for all.
-// Without a setting the usual names are tried (reports/guide/own-data.md lists them).
+// A setting is `key=NAME` for a column, `key=A+B+C` for the three columns of a vector, or `key=0.5` for one number for
+// all particles. Without a setting, the usual names are tried (reports/guide/own-data.md lists them).
 #pragma once
 
 #include <array>
@@ -16,13 +16,13 @@
 
 namespace dustbench::bench {
 
-/// The numbers of one quantity: of one column each, or one for all.
+/// The numbers of one quantity: a column for each component, or one number for all.
 struct ColumnNumbers {
     struct Part {
         const std::vector<double>* values = nullptr;  ///< null: `constant`
         std::size_t stride = 1, first = 0;
         double constant = 0;
-        bool isByte = false;  ///< as PointColumn's
+        bool isByte = false;  ///< as in PointColumn
     };
     std::string name;  ///< for messages
     std::vector<Part> parts;
@@ -39,13 +39,13 @@ class DustColumns {
     static DustColumns parse(const std::string& textOrFile);
 
     [[nodiscard]] bool wants(std::string_view column) const;
-    /// Empty if the table has no such quantity. Throws InputError, with `file`, if a column that was named is missing
+    /// Empty if the table does not contain the quantity. Throws InputError, with `file`, if a named column is missing
     /// or has another number of components.
     [[nodiscard]] std::optional<ColumnNumbers> find(const volumes::PointTable& table, std::string_view key,
                                                     const std::string& file) const;
-    /// +Z is up in the file.
+    /// True if +Z is up in the file.
     [[nodiscard]] bool zUp() const { return zUp_; }
-    /// Metres of one unit of length in the file.
+    /// Metres per unit of length of the file.
     [[nodiscard]] double metresPerUnit() const { return metresPerUnit_; }
 
  private:

@@ -29,7 +29,7 @@ InputError tooMany(const fs::path& file, double count) {
                                   files::limits::dustParticles));
 }
 
-/// A table of one moment, or of all of them, by its column of times.
+/// A table of one moment, or of several if it has a column of times.
 void readCsv(const fs::path& file, const DustColumns& columns, std::vector<DustMoment>& moments) {
     const files::CsvTable csv = files::CsvTable::parseFile(file);
     volumes::PointTable whole;
@@ -38,7 +38,7 @@ void readCsv(const fs::path& file, const DustColumns& columns, std::vector<DustM
         volumes::PointColumn& column = whole.columns.emplace_back(volumes::PointColumn{name, 1, {}});
         if (!columns.wants(name)) continue;
         if (std::ranges::count(csv.header(), name) > 1)
-            throw InputError(fmt::format("{}:1: the column '{}' is there twice, expected once", file.string(), name));
+            throw InputError(fmt::format("{}:1: the column '{}' appears twice", file.string(), name));
         column.values.reserve(csv.rows());
         for (std::size_t row = 0; row < csv.rows(); ++row) column.values.push_back(csv.number(row, name));
     }
@@ -81,7 +81,7 @@ bool readOne(const volumes::SeriesEntry& entry, const DustColumns& columns, std:
     } else if (extension == ".csv") {
         readCsv(entry.file, columns, moments);
         if (entry.timeSeconds && moments.size() != before + 1)
-            throw InputError(entry.file.string() + ": has more than one time, expected one, for a series names it");
+            throw InputError(entry.file.string() + ": has more than one time, expected one per file of a series");
     } else {
         throw InputError(fmt::format("dust: got '{}', expected a file that ends in {}", entry.file.string(), endings));
     }
@@ -90,7 +90,7 @@ bool readOne(const volumes::SeriesEntry& entry, const DustColumns& columns, std:
     return true;
 }
 
-/// A `.vdb` is one too if it has no points.
+/// True for files that are always volumes. A `.vdb` without points is a volume too.
 bool isVolume(const fs::path& file) {
     const std::string extension = file.extension();
     return extension == ".nvdb" || extension == ".vti" || extension == ".toml";
@@ -99,8 +99,8 @@ bool isVolume(const fs::path& file) {
 DustFiles readVolumes(const fs::path& path, bool hasColumns) {
     if (hasColumns)
         throw InputError(
-            fmt::format("--dust-columns: got it with the volume {}, allowed: with particles; a .toml says what a "
-                        "volume's fields are",
+            fmt::format("--dust-columns: not allowed with the volume {}, only with particles; name a "
+                        "volume's fields in a .toml",
                         path.string()));
     const volumes::VolumeSetup setup = volumes::readVolumeSetup(path);
     const volumes::VolumeSeries series = volumes::VolumeSeries::read(setup);
@@ -117,7 +117,7 @@ void requireDustFits(double particles, const fs::path& path) {
     const double bytes = particles * static_cast<double>(bytesPerParticle);
     if (bytes > static_cast<double>(files::limits::dustBytes))
         throw InputError(
-            fmt::format("{}: its moments have {:.0f} particles, which need {:.3g} GB, allowed: {:.3g} GB "
+            fmt::format("{}: its moments have {:.0f} particles, which need {:.3g} GB of memory, allowed: {:.3g} GB "
                         "(limit of dust)",
                         path.string(), particles, bytes / 1e9, static_cast<double>(files::limits::dustBytes) / 1e9));
 }
@@ -133,7 +133,7 @@ DustFiles readDustFiles(const fs::path& path, const DustColumns& columns, bool h
         const std::size_t before = dust.moments.size();
         if (!readOne(entry, columns, dust.moments)) {
             if (dust.moments.empty()) return readVolumes(path, hasColumns);
-            throw InputError(fmt::format("{}: has no points, expected some as in {}", entry.file.string(),
+            throw InputError(fmt::format("{}: has no points, expected points as in {}", entry.file.string(),
                                          dust.moments.front().file));
         }
         for (std::size_t i = before; i < dust.moments.size(); ++i)

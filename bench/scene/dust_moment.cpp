@@ -16,12 +16,12 @@ namespace dustbench::bench {
 namespace {
 
 constexpr double maximumPlace = 1e6, maximumSpeed = 1e5, maximumRadius = 1e4, maximumAge = 1e6, maximumColour = 1e4;
-constexpr double maximumId = 9007199254740992.0;  // 2^53: beyond it a double has no longer every whole number
-/// As every other particle of the harness: full opacity would be an infinite depth.
+constexpr double maximumId = 9007199254740992.0;  // 2^53: beyond it, double skips whole numbers
+/// Maximum for all particles: full opacity would be an infinite depth.
 constexpr double maximumOpacity = 0.999;
 constexpr double smallest = std::numeric_limits<float>::min();
 
-/// Goes through the particles of one quantity.
+/// Reads the quantities of the particles.
 class Reader {
  public:
     Reader(const volumes::PointTable& table, const DustColumns& columns, const std::string& file)
@@ -34,12 +34,12 @@ class Reader {
         return found;
     }
 
-    /// The table's columns that were not found, and numbers of a colour after the third.
+    /// The unused columns of the table, and the numbers of a colour after the third.
     [[nodiscard]] std::vector<std::string> unused() const {
         std::vector<std::string> parts;
         const bool hasPlaces = table_.find(volumes::pointsColumn) != nullptr;
         for (const volumes::PointColumn& column : table_.columns) {
-            if (hasPlaces && column.name == "P") continue;  // OpenVDB's places within a cell: part of Points
+            if (hasPlaces && column.name == "P") continue;  // OpenVDB's positions within a cell: part of Points
             const auto found = used_.find(&column.values);
             if (found == used_.end())
                 parts.push_back(files::namedPart("column", column.name));
@@ -53,7 +53,7 @@ class Reader {
     [[nodiscard]] double checked(const ColumnNumbers& numbers, std::size_t point, std::size_t part, double minimum,
                                  double maximum) const {
         const double value = numbers.at(point, part);
-        if (!(value >= minimum && value <= maximum))  // a NaN is not either
+        if (!(value >= minimum && value <= maximum))  // true for NaN
             throw InputError(fmt::format("{}: particle {}: {} is {}, allowed: {}..{}", file_, point, numbers.name,
                                          value, minimum, maximum));
         return value;
@@ -85,7 +85,7 @@ class Reader {
     const volumes::PointTable& table_;
     const DustColumns& columns_;
     const std::string& file_;
-    std::map<const std::vector<double>*, int> used_;  ///< numbers of a particle that are taken, by column
+    std::map<const std::vector<double>*, int> used_;  ///< numbers per particle that are used, by column
 };
 
 void readIds(const ColumnNumbers& numbers, const Reader& reader, DustMoment& moment) {
@@ -100,7 +100,7 @@ void readIds(const ColumnNumbers& numbers, const Reader& reader, DustMoment& mom
     std::vector<std::uint64_t> sorted = moment.id;
     std::ranges::sort(sorted);
     if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
-        throw InputError(fmt::format("{}: {}: {} is there twice, expected an id for each particle", moment.file,
+        throw InputError(fmt::format("{}: {}: {} appears twice, expected a different id for each particle", moment.file,
                                      numbers.name, *twice));
 }
 
@@ -133,7 +133,7 @@ void readDustColours(const ColumnNumbers& colour, const Reader& reader, DustMome
     if (areWhole && maximum > 1)
         throw InputError(
             fmt::format("{}: {} has whole numbers up to {}, expected linear light, where white is 1 "
-                        "(colours of 0..255 are read from UInt8 in a .vtp)",
+                        "(only UInt8 arrays of a .vtp may have colours 0..255)",
                         moment.file, colour.name, maximum));
 }
 

@@ -20,14 +20,14 @@ struct DustMoment {
     std::vector<std::uint64_t> id;
     std::vector<float> x, y, z, velocityX, velocityY, velocityZ, age, lifetime, radius, opacity, red, green, blue;
     bool hasIds = false, hasVelocity = false, hasAge = false, hasLifetime = false, hasColour = false;
-    std::vector<std::string> unused{};  ///< columns of the table that mean nothing here: `column 'density'`
-    bool depthsChange = false;          ///< evenly to the next moment, not opacities: so does mass
+    std::vector<std::string> unused{};  ///< unused columns of the table: `column 'density'`
+    bool depthsChange = false;          ///< to the next moment, optical depth and mass change linearly, not opacity
     std::vector<std::uint32_t> next;    ///< the same particle in the next moment, or `none`
 
     [[nodiscard]] std::size_t size() const { return x.size(); }
 };
 
-/// Throws InputError, one line with the file, if a quantity is missing or a number is not one that a particle can have.
+/// Throws InputError, one line with the file, if a quantity is missing or a number is invalid for a particle.
 [[nodiscard]] DustMoment dustMoment(const volumes::PointTable& table, const DustColumns& columns,
                                     const std::string& file);
 

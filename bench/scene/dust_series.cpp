@@ -32,16 +32,16 @@ void requireSeries(const std::vector<DustMoment>& moments) {
         if (!moment.timeSeconds)
             throw InputError(
                 moment.file +
-                ": has no time, expected TimeValue (.vtp), time_s (.vdb), or a .pvd or .series that says it");
+                ": has no time, expected TimeValue (.vtp), time_s (.vdb), or a .pvd or .series with times");
         if (i == 0) continue;
         const DustMoment& before = moments[i - 1];
         if (!(*moment.timeSeconds > *before.timeSeconds))
-            throw InputError(fmt::format("{}: its time is {} s, expected more than {} s of {} before it", moment.file,
+            throw InputError(fmt::format("{}: its time is {} s, expected more than {} s, the time of {}", moment.file,
                                          *moment.timeSeconds, *before.timeSeconds, before.file));
         if (const std::string has = columnsOf(moment), expected = columnsOf(before); has != expected)
             throw InputError(fmt::format("{}: has {}, expected {} as in {}", moment.file, has, expected, before.file));
         if (!moment.hasIds && moment.size() != before.size())
-            throw InputError(fmt::format("{}: has {} particles, expected {} as in {}, for there is no column of ids",
+            throw InputError(fmt::format("{}: has {} particles, expected {} as in {}, because there are no ids",
                                          moment.file, moment.size(), before.size(), before.file));
     }
 }
@@ -56,7 +56,7 @@ DustSeries DustSeries::read(const std::filesystem::path& path, const std::string
         series.albedo_ = read.albedo;
         return series;
     } catch (const InputError& error) {
-        throw InputError(files::printable(error.what()));  // names within the files may be any bytes
+        throw InputError(files::printable(error.what()));  // names within the files may contain any bytes
     }
 }
 
@@ -86,7 +86,7 @@ void DustSeries::match() {
     }
 }
 
-/// Without ages a particle is as old as the time since it was first there; without lifetimes all live as long as the
+/// Without ages, the age of a particle is the time since its first moment; without lifetimes, all live as long as the
 /// oldest.
 void DustSeries::fillAges() {
     float oldest = static_cast<float>(stepSeconds);

@@ -1,8 +1,8 @@
 // Dust from files: the particles at any time between the first moment and the last.
 //
-// Between two moments there are the particles of the first of them. Those that are in the second too, by their id, move
-// from one to the other in a straight line, and their other quantities change evenly; the others move on by their
-// velocity until then. Without ids, particles are matched by their row.
+// Between two moments, the particles are those of the first. Particles that are also in the second, by their id, move
+// to their new positions in a straight line, and their other quantities change linearly; the others continue with their
+// velocity. Without ids, particles are matched by row.
 // Units: m, m/s, s; times count from the first moment. Frame: world. Threads: const members are safe from any.
 #pragma once
 
@@ -17,33 +17,34 @@
 
 namespace dustbench::bench {
 
-/// A time that misses a moment by less is that moment: files round their times.
+/// Times closer than this are the same moment: files round their times.
 inline constexpr double sameMomentSeconds = 1e-5;
 
 class DustSeries {
  public:
     /// `columns` as for DustColumns::parse. Throws InputError, one line with the file.
     static DustSeries read(const std::filesystem::path& path, const std::string& columns);
-    /// One moment or more. Throws InputError if times are missing or do not ascend, or the moments have not the same
+    /// One or more moments. Throws InputError if times are missing or do not ascend, or if the moments have different
     /// columns.
     explicit DustSeries(std::vector<DustMoment> moments);
 
-    /// One moment alone is a still cloud, which lasts.
+    /// True for a single moment: a still cloud that lasts.
     [[nodiscard]] bool isStill() const { return moments_.size() == 1; }
-    /// From the first moment to the last.
+    /// Duration from the first moment to the last.
     [[nodiscard]] double seconds() const;
     [[nodiscard]] std::size_t moments() const { return moments_.size(); }
-    /// Particles that are new in a moment, or missing in the next, over the whole series.
+    /// Number of particles that are new in a moment or missing in the next one, over the whole series.
     [[nodiscard]] std::size_t births() const { return births_; }
     [[nodiscard]] std::size_t deaths() const { return deaths_; }
-    /// Of all moments.
+    /// Memory of all moments.
     [[nodiscard]] std::size_t bytes() const;
     [[nodiscard]] bool hasColour() const { return moments_.front().hasColour; }
-    /// What dust of one colour reflects, as the file says; empty: as the scene's.
+    /// Albedo of dust of one colour from the file; empty: that of the scene.
     [[nodiscard]] const std::optional<glm::vec3>& albedo() const { return albedo_; }
     [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
 
-    /// The particles so many seconds after the first moment; before it the first moment, after the end the last.
+    /// The particles this many seconds after the first moment; before it those of the first moment, after the end those
+    /// of the last.
     void show(double seconds, particles::ParticleStore& store) const;
 
  private:

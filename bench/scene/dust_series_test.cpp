@@ -44,7 +44,7 @@ TEST_F(DustSeriesFile, MovesInAStraightLineBetweenTwoMomentsByIdNotByRow) {
     EXPECT_EQ(dust.position(1), glm::vec3(11, 0, 0));
     EXPECT_FLOAT_EQ(dust.radius[1], 1.25f);
     EXPECT_FLOAT_EQ(dust.opacity[1], 0.25f);
-    EXPECT_FLOAT_EQ(dust.velocityX[1], 2);  // from its places
+    EXPECT_FLOAT_EQ(dust.velocityX[1], 2);  // from its positions
     EXPECT_FLOAT_EQ(dust.age[0], 0.5f);
     EXPECT_EQ(at(series, 2).position(1), glm::vec3(0, 8, 0));
 }
@@ -105,7 +105,7 @@ TEST_F(DustSeriesFile, EachFaultIsOneClearLine) {
     EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,3,1,0.1\n", "up=x"), HasSubstr("up: got 'x', allowed: y, z"));
     EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,3,1,0.1\n", "scale"), HasSubstr("expected key=COLUMN"));
     const std::string one = "0,1,0,0,0,1,0.2\n";
-    EXPECT_THAT(refusal(dustHeader + one + one), HasSubstr("id: 1 is there twice"));
+    EXPECT_THAT(refusal(dustHeader + one + one), HasSubstr("id: 1 appears twice"));
     EXPECT_THAT(refusal(dustHeader + std::string("0,1.5,0,0,0,1,0.2\n")),
                 HasSubstr("id is 1.5, allowed: whole numbers"));
     EXPECT_THAT(refusal(dustHeader + std::string("1,1,0,0,0,1,0.2\n") + one), HasSubstr("expected more than 1 s"));
@@ -148,7 +148,7 @@ TEST_F(DustSeriesFile, NamesAreReadTogether) {
     const Puffs coloured = at(read("x,y,z,R,G,B,pscale,opacity\n1,2,3,0.9,0.5,0.25,2,0.1\n"), 0);
     EXPECT_EQ(coloured.radius[0], 2);
     EXPECT_EQ(glm::vec3(coloured.red[0], coloured.green[0], coloured.blue[0]), glm::vec3(0.9f, 0.5f, 0.25f));
-    EXPECT_EQ(at(read("x,y,z,R,pscale,opacity\n1,2,3,0.9,2,0.1\n"), 0).radius[0], 0.9f);  // alone it is the radius
+    EXPECT_EQ(at(read("x,y,z,R,pscale,opacity\n1,2,3,0.9,2,0.1\n"), 0).radius[0], 0.9f);  // alone, R is the radius
     EXPECT_EQ(at(read("x,y,z,R,G,pscale,opacity\n1,2,3,0.9,0.5,2,0.1\n"), 0).radius[0], 0.9f);
     EXPECT_THAT(refusal("x,y,z,R,G,B,opacity\n1,2,3,0.9,0.5,0.25,0.1\n"), HasSubstr("no column for radius"));
     EXPECT_EQ(at(read("x,y,z,R,G,B,opacity\n1,2,3,0.9,0.5,0.25,0.1\n", "radius=R"), 0).radius[0], 0.9f);
@@ -200,7 +200,7 @@ TEST_F(DustIndex, DamagedOnesAreRefused) {
     EXPECT_THAT(refusalOf("d.series", "{\"files\": []}"), HasSubstr("names no files"));
     EXPECT_THAT(refusalOf("d.series", "{\"files\": [{\"name\": \"gone.csv\", \"time\": 0}]}"), HasSubstr("gone.csv"));
     EXPECT_THAT(refusalOf("d.pvd", "<VTKFile type=\"Collection\"><Collection>"), HasSubstr("ends within its XML"));
-    EXPECT_THAT(refusalOf("d.pvd", "<VTKFile type=\"PolyData\"></VTKFile>"), HasSubstr("it is no collection"));
+    EXPECT_THAT(refusalOf("d.pvd", "<VTKFile type=\"PolyData\"></VTKFile>"), HasSubstr("it is not a collection"));
     EXPECT_THAT(refusalOf("d.series", R"({"files": [{"name": "a.csv", "time": 1}, {"name": "b.csv", "time": 1}]})"),
                 HasSubstr("expected more than 1 s"));
     folder_.write("b.csv", "x,y,z,radius,opacity,age\n2,2,3,1,0.1,1\n");

@@ -1,8 +1,8 @@
-// A wall of particles as other programs write them: count, mass, centroid and first values of each, what of it is
-// ignored, and the reason where it is refused.
+// Particle files as other programs write them: count, mass, centroid, first values and ignored columns of each, or the
+// reason why it is refused.
 //
-// Tables are written as pandas, ParaView, Houdini and spreadsheets write them; names of columns are those of Blender,
-// Houdini, ParaView and OpenFOAM's clouds.
+// Tables have the formats of pandas, ParaView, Houdini and spreadsheets; columns have the names of Blender, Houdini,
+// ParaView and OpenFOAM's clouds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

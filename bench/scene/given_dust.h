@@ -1,4 +1,4 @@
-// Dust from a file in place of the scene's own, and which frame of the run is its first moment.
+// Dust from a file instead of the scene's own, and the frame of the run that shows its first moment.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@ namespace dustbench::bench {
 struct GivenDust {
     std::string file;     ///< empty: the scene's own dust
     std::string columns;  ///< DustColumns::parse
-    /// Steps after the preroll that hold the first moment as well.
+    /// Steps after the preroll that also show the first moment.
     std::int64_t warmup = 0;
-    /// Frames from frame 0 on that must be there; 0: any number, and the last moment holds.
+    /// Number of frames from frame 0 on that the file must cover; 0: any, and the last moment stays.
     std::int64_t frames = 0;
 };
 

@@ -1,9 +1,9 @@
-// Controls of a vehicle that is driven live: keys that are held down, or a gamepad's sticks.
+// Controls of a vehicle that is driven live, with keys or the sticks of a gamepad.
 //
-// The vehicle stands until the drive's first step has begun, whatever is held: a drive file holds its first row during
-// the preroll, so only then a recording (control_recording.h) is the same drive. The steering follows what is held at a
+// The vehicle stands until the first step of the drive, whatever keys are pressed: a drive file applies its first row
+// during the preroll, so only then is a recording (control_recording.h) the same drive. Steering follows the input at a
 // limited rate, so that a key can be tapped.
-// Units: SI. Owns: nothing of the input, which the user of the world changes between steps.
+// Units: SI. Does not own the input, which the caller changes between steps.
 #pragma once
 
 #include <limits>
@@ -13,14 +13,14 @@
 
 namespace dustbench::bench {
 
-/// What the driver wants: throttle and brake 0..1, steering −1..1 (positive: left). Keys give 0 or ±1.
+/// The driver's input: throttle and brake 0..1, steering −1..1 (positive: left). Keys give 0 or ±1.
 struct DrivingInput {
     double throttle = 0, brake = 0, steer = 0;
 };
 
 class KeyboardControls final : public ControlSource {
  public:
-    static constexpr double steerPerSecond = 3;  ///< of the whole range −1..1 is 2
+    static constexpr double steerPerSecond = 3;  ///< the whole range −1..1 is 2
 
     /// `input` is read at every step; not null.
     explicit KeyboardControls(std::shared_ptr<const DrivingInput> input);

@@ -1,5 +1,4 @@
-// Dust as the sun lights it where scene::Lights::onDust: each puff has the colour that its centre shows towards the
-// eye.
+// Dust lit by the sun, if scene::Lights::onDust: each puff has the colour that its centre shows towards the eye.
 //
 // Units: metres; linear RGB. Owns: the colours. Threads: one at a time; uses the current oneTBB arena, bit-identical at
 // any number of threads.
@@ -15,18 +14,18 @@
 
 namespace dustbench::bench {
 
-/// What lights the dust.
+/// The light on the dust.
 enum class DustLight {
-    none,  ///< nothing: it has its colours wherever it is
+    none,  ///< none: its own colours everywhere
     sun,   ///< sun and sky: scene::dustLight
 };
 inline constexpr Choices<DustLight> dustLights{{"none", DustLight::none}, {"sun", DustLight::sun}};
 
 class LitDust {
  public:
-    /// The `dust` with colours of its own: those that it has times scene::dustLight() at each centre. The sun's light
-    /// is attenuated by the closed form of all puffs, each with the share `opticalDepthShare` of its depth; what it
-    /// leaves out of the depth is below 1e-3. Valid until the next call; `dust` must outlive it.
+    /// The `dust` with new colours: its own times scene::dustLight() at each centre. Sunlight is attenuated by the
+    /// closed form of all puffs, each with the share `opticalDepthShare` of its depth; the neglected depth is below
+    /// 1e-3. Valid until the next call; `dust` must outlive it.
     [[nodiscard]] Puffs light(const Puffs& dust, const scene::Scene& scene, const glm::dvec3& eye,
                               double opticalDepthShare);
 

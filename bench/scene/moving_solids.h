@@ -1,4 +1,4 @@
-// The solids of a scene that move or deform, and how all of them are at a time.
+// The solids of a scene that move or deform, and the state of all solids at a given time.
 //
 // Units: s, m. Frame: world. Owns: paths and targets. Threads: const members are safe from any.
 #pragma once
@@ -14,12 +14,12 @@ namespace dustbench::bench {
 
 class MovingSolids {
  public:
-    /// The solid of this number takes this path. `morph`: of one that deforms.
+    /// Gives the solid with this number a path. `morph`: its targets, if it deforms.
     void add(std::size_t solid, SolidPath path, double scale, std::optional<meshes::MorphMesh> morph);
 
-    /// All solids of the scene at this time; none where all of them are still.
+    /// All solids of the scene at this time; empty if none of them moves.
     [[nodiscard]] std::vector<scene::SolidNow> at(const scene::Scene& scene, double seconds) const;
-    /// Of the targets.
+    /// Memory of the targets.
     [[nodiscard]] std::size_t bytes() const;
 
  private:

@@ -20,7 +20,7 @@ constexpr double touching = 1e-6;  // metres: plates that only touch do not over
 constexpr Choices<scene::Panel::Parent> parents{{"world", scene::Panel::Parent::world},
                                                 {"vehicle", scene::Panel::Parent::vehicle}};
 
-/// Half the edges of a plate as vectors, and its middle.
+/// The half edges of a plate as vectors, and its centre.
 struct Box {
     glm::dvec3 middle;
     std::array<glm::dvec3, 3> half;
@@ -88,19 +88,19 @@ std::shared_ptr<const scene::Relief> readReliefOf(files::TomlReader& table, cons
 
 void checkPlace(const scene::Panel& panel, const scene::Scene& scene, const std::string& where) {
     if (panel.parent == scene::Panel::Parent::world && reachesIntoGround(panel, scene.terrain))
-        throw InputError(where + "panel '" + panel.name + "' reaches into the ground, expected it above");
+        throw InputError(where + "panel '" + panel.name + "' extends into the ground, expected it above");
     for (const scene::Panel& other : scene.panels) {
         if (other.name == panel.name)
-            throw InputError(where + "two panels have the name '" + panel.name + "', expected a name each");
+            throw InputError(where + "two panels have the name '" + panel.name + "', expected different names");
         if (other.parent == panel.parent && overlap(other, panel))
             throw InputError(where + "panel '" + panel.name + "' overlaps panel '" + other.name +
-                             "', expected them apart");
+                             "', expected panels that do not overlap");
     }
 }
 
 }  // namespace
 
-// Two boxes are apart if and only if their shadows on one of 15 axes are: the separating axis theorem.
+// Two boxes are apart if and only if their projections onto one of 15 axes are: the separating axis theorem.
 bool overlap(const scene::Panel& one, const scene::Panel& other) {
     const Box a = boxOf(one), b = boxOf(other);
     std::vector<glm::dvec3> axes;
@@ -134,7 +134,7 @@ scene::Panel readPanel(files::TomlReader& table, const std::filesystem::path& sc
                              "': expected a position within 100000 metres and a finite rotation");
     if (panel.parent == scene::Panel::Parent::vehicle && (onGround || !scene.vehicle))
         throw InputError(table.where("parent") + "panel '" + panel.name +
-                         "' is on the vehicle, expected a scene with one and no on_ground = true");
+                         "' is on the vehicle, expected a scene with a vehicle and without on_ground = true");
     if (onGround)
         position.y +=
             static_cast<double>(scene.terrain.heightAt(static_cast<float>(position.x), static_cast<float>(position.z)));

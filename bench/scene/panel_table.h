@@ -9,12 +9,12 @@
 
 namespace dustbench::bench {
 
-/// Reads one table. Panels of one relief share it; `files` gets the relief's files. Throws InputError with file, line
-/// and what was expected, also for a panel of the world that reaches into the ground or into another panel of `scene`.
+/// Reads one table. Panels with the same relief share it; `files` gets the relief's files. Throws InputError with file,
+/// line and what was expected, also for a panel of the world that extends into the ground or another panel of `scene`.
 [[nodiscard]] scene::Panel readPanel(files::TomlReader& table, const std::filesystem::path& sceneFile,
                                      const scene::Scene& scene, std::vector<std::filesystem::path>& files);
 
-/// True if the two plates have a point in common. Both are in the frame of the same parent.
+/// True if the two plates have a point in common. Both must be in the frame of the same parent.
 [[nodiscard]] bool overlap(const scene::Panel& one, const scene::Panel& other);
 
 }  // namespace dustbench::bench

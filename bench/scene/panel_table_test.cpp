@@ -68,7 +68,7 @@ TEST_F(PanelTest, StandsWhereTheFileSaysAndGoesAlongWithTheVehicle) {
     state.vehicle.position = {100, 0, 7};
     const glm::dmat4 wall = panelToWorld(file.scene.panels[0], state);
     EXPECT_LT(glm::distance(glm::dvec3(wall[3]), glm::dvec3(5, 1, 0)), 1e-12);
-    EXPECT_LT(glm::distance(glm::dvec3(wall[2]), glm::dvec3(1, 0, 0)), 1e-12);  // the face turned from +Z to +X
+    EXPECT_LT(glm::distance(glm::dvec3(wall[2]), glm::dvec3(1, 0, 0)), 1e-12);  // the face, turned from +Z to +X
     const glm::dmat4 plate = panelToWorld(file.scene.panels[1], state);
     EXPECT_LT(glm::distance(glm::dvec3(plate[3]), glm::dvec3(99, 0.5, 7)), 1e-12);
 }
@@ -76,7 +76,7 @@ TEST_F(PanelTest, StandsWhereTheFileSaysAndGoesAlongWithTheVehicle) {
 TEST_F(PanelTest, SaysWhatIsWrongOfBadInput) {
     EXPECT_NO_THROW(static_cast<void>(scene(panel("wall", wall_))));
     EXPECT_THAT(message(panel("wall", "position = [0, 0.5, 0]\nsize_metres = [4, 2]\ndepth_metres = 0.1\n")),
-                HasSubstr("reaches into the ground"));
+                HasSubstr("extends into the ground"));
     EXPECT_THAT(message(panel("wall", wall_) + panel("other", wall_)), HasSubstr("'other' overlaps panel 'wall'"));
     EXPECT_THAT(message(panel("wall", wall_) + panel("wall", wall_)), HasSubstr("two panels have the name 'wall'"));
     for (const char* size : {"[0, 2]", "[-4, 2]", "[4]", "[4, 2, 1]", "[4, nan]"})
@@ -108,7 +108,7 @@ TEST_F(PanelTest, SaysWhatIsWrongWithHeights) {
     EXPECT_THAT(reason("P5\n1 1\n255\nx"), HasSubstr("1x1 texels, allowed: 2..8192 a side"));
     EXPECT_THAT(reason("P5\n9000 2\n255\n" + std::string(18000, 'x')), HasSubstr("9000x2"));
     EXPECT_THAT(reason("nothing"), HasSubstr("not an image"));
-    // The pixels are not there: the size is refused before they are looked for.
+    // There are no pixels: the size is refused before they are read.
     for (const char* header :
          {"P5\n9000 9000\n255\n", "P5\n60000 60000\n255\n", "P5\n2 8193\n255\n", "P5\n1 64\n255\n"})
         EXPECT_THAT(reason(header), HasSubstr("allowed: 2..8192 a side")) << header;
@@ -121,7 +121,7 @@ TEST_F(PanelTest, SaysWhatIsWrongWithHeights) {
     folder_.write("large.pgm", "P5\n9000 9000\n255\n");
     folder_.write("large.toml", "description = \"r\"\nheights = \"heights.pgm\"\ncolours = \"large.pgm\"\n");
     EXPECT_THAT(inputError([&] { static_cast<void>(readRelief(folder_.path() / "large.toml")); }),
-                HasSubstr("large.pgm: it has 9000x9000 texels"));
+                HasSubstr("large.pgm: has 9000x9000 texels"));
     const float notANumber[4] = {0, NAN, 0, 0};
     EXPECT_THAT(reason("Pf\n2 2\n-1\n" + std::string(reinterpret_cast<const char*>(notANumber), sizeof notANumber)),
                 HasSubstr("a height is nan"));
@@ -134,7 +134,7 @@ TEST_F(PanelTest, SaysWhatIsWrongWithHeights) {
                 HasSubstr("the colours have 2x2 texels, expected those of the heights, 3x2"));
 }
 
-// Two plates overlap if and only if some point of one lies in the other: checked with many points, which may miss a
+// Two plates overlap if and only if some point of one is inside the other: checked with many points, which may miss a
 // small common part.
 TEST(Panels, OverlapIsThatOfTheirPoints) {
     std::mt19937 random(3);

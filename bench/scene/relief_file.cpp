@@ -19,13 +19,13 @@ std::string sizeOf(const pictures::StoredPicture& picture) {
     return std::to_string(picture.width) + "x" + std::to_string(picture.height);
 }
 
-/// Before any pixel is read: a picture that is too large may not fit into memory.
+/// Checks the size before any pixel is read: a picture that is too large may not fit into memory.
 void requireSize(const std::filesystem::path& file) {
     pictures::StoredPicture picture;
     if (const std::string reason = pictures::readPictureSize(file, picture); !reason.empty())
         throw InputError(file.string() + ": not an image that can be read: " + reason);
     if (std::min(picture.width, picture.height) < fewestTexels || std::max(picture.width, picture.height) > mostTexels)
-        throw InputError(file.string() + ": it has " + sizeOf(picture) + " texels, allowed: 2.." +
+        throw InputError(file.string() + ": has " + sizeOf(picture) + " texels, allowed: 2.." +
                          std::to_string(mostTexels) + " a side");
 }
 
@@ -37,7 +37,7 @@ pictures::StoredPicture readPicture(const std::filesystem::path& file) {
     return picture;
 }
 
-/// Calls `visit(texel, value)` for the picture's pixels from the bottom row up: a relief's order.
+/// Calls `visit(texel, value)` for the pixels from the bottom row up, the order of a relief.
 template <typename Visit>
 void forEachTexel(const pictures::StoredPicture& picture, const Visit& visit) {
     const auto columns = static_cast<std::size_t>(picture.width), rows = static_cast<std::size_t>(picture.height);

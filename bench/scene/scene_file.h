@@ -21,7 +21,7 @@ struct Start {
     double heading = 0;
 };
 
-/// What a scene file calls the dust of wheels that raise none.
+/// Name for no dust in a scene file.
 inline constexpr const char* noDust = "none";
 
 struct SceneFile {
@@ -29,7 +29,7 @@ struct SceneFile {
     MovingSolids movingSolids;
     CameraSet cameras;
     Start start;
-    bool isDrawn = true;  ///< false: only what the method draws is seen, on the horizon's colour
+    bool isDrawn = true;  ///< false: only the method's picture is visible, over the horizon's colour
     std::string description;
     std::string drive;                         ///< id of the default drive
     std::string dust;                          ///< id of the particle system for the wheels, or noDust

@@ -203,7 +203,7 @@ TEST(HeightImage, IsCentredAndScaledFromBlackToWhite) {
 
 TEST(HeightImage, IsAsStoredWhateverTheFileSaysOfItsColours) {
     const TestFolder folder;
-    // A PNG of 2x2 pixels, 0 128 255 51, that says by gAMA that it is linear light.
+    // A PNG of 2x2 pixels, 0 128 255 51, which is linear light by its gAMA chunk.
     constexpr std::string_view linear(
         "\x89\x50\x4e\x47\x0d\x0a\x1a\x0a\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00\x00\x02\x00\x00\x00\x02"
         "\x08\x00\x00\x00\x00\x57\xdd\x52\xf8\x00\x00\x00\x04\x67\x41\x4d\x41\x00\x01\x86\xa0\x31\xe8\x96"
@@ -219,7 +219,7 @@ TEST(HeightImage, IsAsStoredWhateverTheFileSaysOfItsColours) {
 
 TEST(HeightImage, IsRefusedByItsHeaderWhereItIsTooLarge) {
     const TestFolder folder;
-    // No pixel follows: only the header can be what is refused.
+    // No pixels follow, so only the header can be the reason.
     const auto file = folder.write("h.pgm", "P5\n8193 2\n255\n");
     EXPECT_THAT(inputError([&] { (void)readHeightImage(file, 1, 1, 0); }),
                 HasSubstr("h.pgm: the height field has 8193 x 2 pixels, expected 2..8192 a side"));

@@ -1,4 +1,4 @@
-// Values that several tables of a scene file have: angles, colours, points.
+// Reads values that several tables of a scene file contain: angles, colours, points.
 //
 // Units in the file: m, degrees; colours linear RGB. All throw InputError with file, line and what was expected.
 #pragma once
@@ -10,10 +10,10 @@
 
 namespace dustbench::bench {
 
-/// In radians; the bounds are degrees, as in the file.
+/// In radians; the bounds are in degrees, as in the file.
 [[nodiscard]] double readAngle(files::TomlReader& table, std::string_view key, double minimum, double maximum,
                                double initial);
-/// Three numbers within bounds; `expected` says which, for the message.
+/// Three numbers within bounds; `expected` describes them in messages.
 [[nodiscard]] glm::dvec3 readBounded(files::TomlReader& table, std::string_view key, glm::dvec3 initial, double minimum,
                                      double maximum, const char* expected);
 /// Each channel 0..`maximum`, which is 1 or 100.

@@ -21,7 +21,7 @@ glm::dvec3 three(const std::vector<double>& numbers, std::size_t first) {
     return {numbers[first], numbers[first + 1], numbers[first + 2]};
 }
 
-/// Whether the last key of a path that repeats is where its first is.
+/// Whether the last key of a repeating path equals the first.
 bool isTheSame(const std::vector<double>& first, const std::vector<double>& last) {
     for (std::size_t n = 0; n < first.size(); ++n) {
         const double off = last[n] - first[n];
@@ -42,7 +42,7 @@ glm::dmat4 solidToWorld(const glm::dvec3& position, const glm::dvec3& turn, doub
 }
 
 scene::SolidPose SolidPath::Moment::pose(double scale) const {
-    // R = Ry·Rz·Rx: each rate is about its axis as the rotations after it have turned it.
+    // R = Ry·Rz·Rx: each rate is about its axis, as turned by the rotations after it.
     const glm::dmat4 turnedY = glm::rotate(glm::dmat4(1), turn.y, {0, 1, 0});
     const glm::dmat4 turnedZ = glm::rotate(turnedY, turn.z, {0, 0, 1});
     const glm::dvec3 spin = turnPerSecond.y * glm::dvec3(0, 1, 0) + turnPerSecond.z * glm::dvec3(turnedY[2]) +
@@ -57,20 +57,21 @@ SolidPath::SolidPath(const std::vector<SolidKey>& keys, bool repeats) : repeats_
             throw std::invalid_argument("SolidPath: times do not ascend");
         keys_.push_back({key.seconds, numbersOf(key), Numbers(firstWeight + key.weights.size(), 0.0)});
         if (keys_.back().numbers.size() != keys_.front().numbers.size())
-            throw std::invalid_argument("SolidPath: keys of different numbers of weights");
+            throw std::invalid_argument("SolidPath: keys with different numbers of weights");
     }
     if (repeats && (keys_.size() < 2 || !isTheSame(keys_.front().numbers, keys_.back().numbers)))
         throw std::invalid_argument("SolidPath: a path that repeats does not end as it begins");
     findVelocities();
 }
 
-/// From a key to the next.
+/// From one key to the next.
 double SolidPath::slopeAfter(std::size_t key, std::size_t number) const {
     const Key &from = keys_[key], &to = keys_[key + 1];
     return (to.numbers[number] - from.numbers[number]) / (to.seconds - from.seconds);
 }
 
-/// Of the parabola through a key and its neighbours: v = (h₁·s₀ + h₀·s₁)/(h₀ + h₁); 0 at the ends of a path that rests.
+/// Velocity of the parabola through a key and its neighbours: v = (h₁·s₀ + h₀·s₁)/(h₀ + h₁); 0 at the ends of a path
+/// that does not repeat.
 void SolidPath::findVelocities() {
     const std::size_t last = keys_.size() - 1;
     for (std::size_t i = 0; i <= last; ++i) {
@@ -100,8 +101,8 @@ SolidPath::Moment SolidPath::at(double seconds) const {
         const Key &from = *(next - 1), &to = *next;
         const double h = to.seconds - from.seconds, u = (seconds - from.seconds) / h, w = 1 - u;
         value.resize(rate.size());
-        // Cubic Hermite: p = p₀ + u²(3 − 2u)·(p₁ − p₀) + h·u(1 − u)·((1 − u)·v₀ − u·v₁). So a path that stands still is
-        // exactly where its keys are.
+        // Cubic Hermite: p = p₀ + u²(3 − 2u)·(p₁ − p₀) + h·u(1 − u)·((1 − u)·v₀ − u·v₁). A path at rest is exactly
+        // where its keys are.
         for (std::size_t n = 0; n < value.size(); ++n) {
             const double way = to.numbers[n] - from.numbers[n], v0 = from.perSecond[n], v1 = to.perSecond[n];
             value[n] = from.numbers[n] + u * u * (3 - 2 * u) * way + h * u * w * (w * v0 - u * v1);

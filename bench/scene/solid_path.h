@@ -1,9 +1,9 @@
-// The path of a solid: where it is, how it is turned, and how far it is deformed, from key to key.
+// The key-framed path of a solid: position, rotation and deformation over time.
 //
-// Each number (three of the place, three angles, a weight for each target) goes through its keys as a piecewise cubic
-// whose velocity is continuous. Before the first key and after the last it rests, and so begins and ends without a
-// jolt; a path that repeats goes on from its last key as from its first. Angles are numbers like all others, so a turn
-// may be longer than a circle (reports/decisions/0017-moving-solids.md).
+// Each number (three of the position, three angles, a weight for each target) is a piecewise cubic through its keys
+// with continuous velocity. Before the first key and after the last it rests, with zero velocity at both; a repeating
+// path continues from its last key as from its first. Angles are interpolated like other numbers, so a rotation may
+// exceed a full turn (reports/decisions/0017-moving-solids.md).
 // Units: s, m, radians. Frame: world. Time 0 is the start of the drive. Threads: const members are safe from any.
 #pragma once
 
@@ -35,8 +35,8 @@ class SolidPath {
         [[nodiscard]] scene::SolidPose pose(double scale) const;
     };
 
-    /// One key or more by ascending time, with as many weights each; a path that repeats has two or more, and ends as
-    /// it begins but for whole turns. Throws std::invalid_argument otherwise.
+    /// One or more keys by ascending time, with equal numbers of weights. A repeating path has two or more, and ends as
+    /// it begins, up to whole turns. Throws std::invalid_argument otherwise.
     SolidPath(const std::vector<SolidKey>& keys, bool repeats);
 
     [[nodiscard]] Moment at(double seconds) const;

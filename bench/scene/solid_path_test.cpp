@@ -12,7 +12,7 @@ namespace {
 
 constexpr double circle = 2 * std::numbers::pi;
 
-/// Keys at uneven times from 0 on. With `returns` the last is as the first, but for a whole turn about y.
+/// Keys at uneven times from 0 on. With `returns`, the last equals the first, up to a whole turn about y.
 std::vector<SolidKey> randomSolidKeys(int count, unsigned seed, bool returns = false) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> number(-2, 2);
@@ -31,13 +31,13 @@ std::vector<SolidKey> randomSolidKeys(int count, unsigned seed, bool returns = f
     return keys;
 }
 
-/// Where a path has a point of its solid, in double precision.
+/// Position of a point of the solid on the path, in double precision.
 glm::dvec3 placeOf(const SolidPath& path, double seconds, const glm::dvec3& local) {
     const SolidPath::Moment moment = path.at(seconds);
     return {solidToWorld(moment.position, moment.turn, 1) * glm::dvec4(local, 1)};
 }
 
-/// What the pose says of its velocity: v + ω×r.
+/// The point's velocity by the pose: v + ω×r.
 glm::dvec3 velocityOf(const SolidPath& path, double seconds, const glm::dvec3& local) {
     const scene::SolidPose pose = path.at(seconds).pose(1);
     const glm::dvec3 arm = placeOf(path, seconds, local) - placeOf(path, seconds, {});

@@ -19,11 +19,11 @@ using files::TomlReader;
 using std::filesystem::path;
 
 constexpr double longest = 1e5;      ///< seconds
-constexpr double mostDegrees = 1e7;  ///< of a turn
+constexpr double mostDegrees = 1e7;  ///< of a rotation
 
 struct ReadMesh {
     std::shared_ptr<const scene::Mesh> mesh;
-    std::optional<meshes::MorphMesh> morph;  ///< if it has targets
+    std::optional<meshes::MorphMesh> morph;  ///< if the solid has targets
 };
 
 ReadMesh readMesh(TomlReader& table, const path& from, std::vector<path>& files) {
@@ -52,7 +52,7 @@ glm::dvec3 readTurn(TomlReader& table, const glm::dvec3& initialDegrees) {
                        "three angles -10000000..10000000, degrees");
 }
 
-/// `rest`: what a key has that says nothing else; `turn` in degrees, as in what is read.
+/// `rest`: the default values of a key; `turn` in degrees, as in the file.
 SolidKey readKey(TomlReader& table, const SolidKey& rest) {
     SolidKey key;
     key.seconds = table.number("time_seconds", -longest, longest);
@@ -61,9 +61,8 @@ SolidKey readKey(TomlReader& table, const SolidKey& rest) {
     key.weights = rest.weights;
     if (table.has("weights")) key.weights = table.numbers("weights");
     if (key.weights.size() != rest.weights.size())
-        throw InputError(
-            fmt::format("{}key 'weights': got {} numbers, expected {}, one for each of the solid's targets",
-                        table.where("weights"), key.weights.size(), rest.weights.size()));
+        throw InputError(fmt::format("{}key 'weights': got {} numbers, expected {}, one for each target of the solid",
+                                     table.where("weights"), key.weights.size(), rest.weights.size()));
     for (const double weight : key.weights)
         if (!(std::abs(weight) <= 100))
             throw InputError(
@@ -75,7 +74,7 @@ SolidKey readKey(TomlReader& table, const SolidKey& rest) {
 void requireReturn(const SolidKey& first, const SolidKey& last, const std::string& where) {
     const auto refuse = [&](const char* what) {
         throw InputError(where + "key 'keys_repeat': the last key has another " + what +
-                         " than the first, expected the same, rotations but for whole turns");
+                         " than the first, expected the same (rotations: up to whole turns)");
     };
     if (first.position != last.position) refuse("position");
     for (int axis = 0; axis < 3; ++axis)
@@ -83,19 +82,19 @@ void requireReturn(const SolidKey& first, const SolidKey& last, const std::strin
     if (first.weights != last.weights) refuse("weight");
 }
 
-/// The keys in radians, with their places above the ground.
+/// The keys in radians, with positions above the ground.
 std::optional<SolidPath> readPath(TomlReader& table, const SolidKey& rest, const scene::Terrain* ground) {
     std::vector<SolidKey> keys;
     for (TomlReader& keyTable : table.tables("key")) {
         keys.push_back(readKey(keyTable, rest));
         if (keys.size() > 1 && !(keys.back().seconds > keys[keys.size() - 2].seconds))
-            throw InputError(fmt::format("{}key 'time_seconds': got {}, expected more than {} of the key before",
+            throw InputError(fmt::format("{}key 'time_seconds': got {}, expected more than {} (previous key)",
                                          keyTable.where("time_seconds"), keys.back().seconds,
                                          keys[keys.size() - 2].seconds));
     }
     const bool repeats = table.boolean("keys_repeat", false);
     if (repeats && keys.size() < 2)
-        throw InputError(fmt::format("{}key 'keys_repeat': got it with {} keys, expected two or more",
+        throw InputError(fmt::format("{}key 'keys_repeat': got {} keys, expected two or more",
                                      table.where("keys_repeat"), keys.size()));
     if (repeats) requireReturn(keys.front(), keys.back(), table.where("keys_repeat"));
     if (keys.empty()) return std::nullopt;
@@ -128,8 +127,7 @@ void readSolid(TomlReader& table, const path& from, scene::Scene& scene, MovingS
         throw InputError(
             fmt::format("{}key 'repeat': got {} for a solid with keys, expected 1", table.where("repeat"), count));
     if (read.morph && !solidPath)
-        throw InputError(table.where("targets") +
-                         "key 'targets': got them without keys, expected [[solid.key]] tables");
+        throw InputError(table.where("targets") + "key 'targets': requires keys, expected [[solid.key]] tables");
     table.finish();
 
     const glm::dvec3 turn = glm::radians(rest.turn);

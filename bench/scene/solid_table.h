@@ -10,9 +10,9 @@
 
 namespace dustbench::bench {
 
-/// Reads all copies of one table into `scene`: several are merged into one mesh in world coordinates, a single one gets
-/// a pose, and a path in `moving` if it has keys. `files` gets its meshes. Throws InputError with file, line and what
-/// was expected.
+/// Reads all copies of one table into `scene`. Several copies are merged into one mesh in world coordinates; a single
+/// one gets a pose, and a path in `moving` if it has keys. `files` gets its meshes. Throws InputError with file, line
+/// and what was expected.
 void readSolid(files::TomlReader& table, const std::filesystem::path& sceneFile, scene::Scene& scene,
                MovingSolids& moving, std::vector<std::filesystem::path>& files);
 

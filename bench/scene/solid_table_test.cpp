@@ -57,7 +57,7 @@ TEST(SolidTable, KeysMakeASolidMoveFromWhereItsTableHasIt) {
     EXPECT_FLOAT_EQ(now[0].pose.velocity.y, 3);  // 1.5 times the mean: it starts and ends at rest
     EXPECT_LT(glm::distance(glm::vec3(now[0].pose.toWorld[0]), glm::vec3(0, 0, -2)), 1e-6f);
     EXPECT_EQ(now[0].shape, nullptr);
-    // Without keys nothing moves, and there is nothing to say of a moment.
+    // Without keys nothing moves, so moments have no solids.
     const SceneFile still = one.with("");
     EXPECT_FALSE(scene::anySolidMoves(still.scene));
     EXPECT_TRUE(still.movingSolids.at(still.scene, 2).empty());
@@ -70,7 +70,7 @@ TEST(SolidTable, TargetsDeformAndTheirVerticesHaveVelocities) {
         "[[solid.key]]\ntime_seconds = 0\n[[solid.key]]\ntime_seconds = 1\nweights = [1, 0.5]\n"
         "[[solid.key]]\ntime_seconds = 2\n");
     EXPECT_EQ(file.scene.solids[0].motion, scene::SolidMotion::deforms);
-    EXPECT_EQ(file.files.size(), 4u);  // and the scene's own
+    EXPECT_EQ(file.files.size(), 4u);  // including the scene file
     const auto highest = [](const scene::Mesh& mesh) {
         glm::vec3 corner(0);
         for (const glm::vec3& position : mesh.positions) corner = glm::max(corner, position);
@@ -78,7 +78,7 @@ TEST(SolidTable, TargetsDeformAndTheirVerticesHaveVelocities) {
     };
     EXPECT_EQ(highest(*file.scene.solids[0].mesh), glm::vec3(1, 1, 1));
     EXPECT_EQ(highest(file.movingSolids.at(file.scene, 1)[0].shape->mesh), glm::vec3(1.5f, 3, 1));
-    // Velocities of vertices are the derivatives of their places.
+    // Velocities of vertices are the derivatives of their positions.
     constexpr double h = 1e-3;
     const auto before = file.movingSolids.at(file.scene, 0.4 - h), now = file.movingSolids.at(file.scene, 0.4),
                after = file.movingSolids.at(file.scene, 0.4 + h);
@@ -112,14 +112,14 @@ TEST(SolidTable, KeysStandOnTheGroundUnlessToldOtherwise) {
 TEST(SolidTable, SaysInOneLineWhatIsWrong) {
     OneSolid one;
     const std::string key = "[[solid.key]]\ntime_seconds = 1\n", next = "[[solid.key]]\ntime_seconds = 2\n";
-    EXPECT_THAT(one.refusal(key + key), HasSubstr("key 'time_seconds': got 1, expected more than 1 of the key before"));
+    EXPECT_THAT(one.refusal(key + key), HasSubstr("key 'time_seconds': got 1, expected more than 1 (previous key)"));
     EXPECT_THAT(one.refusal("[[solid.key]]\nposition = [0, 0, 0]\n"), HasSubstr("time_seconds"));
     EXPECT_THAT(one.refusal(key + "speed = 3\n"), HasSubstr("speed"));
     EXPECT_THAT(one.refusal(key + "position = [0, 1e6, 0]\n"), HasSubstr("three numbers -100000..100000"));
     EXPECT_THAT(one.refusal(key + "rotation_degrees = [nan, 0, 0]\n"), HasSubstr("rotation_degrees"));
     EXPECT_THAT(one.refusal("repeat = 3\n" + key), HasSubstr("got 3 for a solid with keys, expected 1"));
-    EXPECT_THAT(one.refusal("keys_repeat = true\n"), HasSubstr("got it with 0 keys, expected two or more"));
-    EXPECT_THAT(one.refusal("keys_repeat = true\n" + key), HasSubstr("got it with 1 keys, expected two or more"));
+    EXPECT_THAT(one.refusal("keys_repeat = true\n"), HasSubstr("got 0 keys, expected two or more"));
+    EXPECT_THAT(one.refusal("keys_repeat = true\n" + key), HasSubstr("got 1 keys, expected two or more"));
     EXPECT_THAT(one.refusal("keys_repeat = true\n" + key + next + "position = [1, 0, 0]\n"),
                 HasSubstr("the last key has another position than the first"));
     EXPECT_THAT(one.refusal("keys_repeat = true\n" + key + next + "rotation_degrees = [0, 350, 0]\n"),

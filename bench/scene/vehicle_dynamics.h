@@ -23,7 +23,7 @@ struct Controls {
 /// Acceleration at full throttle, limited by tyre grip or engine power.
 [[nodiscard]] double fullThrottleAcceleration(const scene::VehicleParameters& parameters, double speed);
 
-/// Deceleration by air drag and rolling resistance on level ground.
+/// Deceleration due to air drag and rolling resistance on level ground.
 [[nodiscard]] double resistanceDeceleration(const scene::VehicleParameters& parameters, double speed);
 
 /// Maximum steering angle of the bicycle at a speed: the limit of the linkage or of the lateral acceleration.

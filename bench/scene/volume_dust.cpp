@@ -17,14 +17,14 @@ namespace {
 using volumes::GridPlace;
 using volumes::VolumeGrid;
 
-constexpr double maximumPuffOpacity = 0.999;  ///< as of all particles
-constexpr double maximumIds = 9e15;           ///< as of all files of dust
+constexpr double maximumPuffOpacity = 0.999;  ///< as for all particles
+constexpr double maximumIds = 9e15;           ///< as for all dust files
 
 /// The sum over the cells of a block.
 struct Block {
     std::uint64_t id = 0;
     double density = 0;
-    glm::dvec3 momentum{0};  ///< velocity by density
+    glm::dvec3 momentum{0};  ///< velocity times density
 };
 
 /// Blocks of cells on the lattice of the whole series, so that a block has one id in all moments.
@@ -39,7 +39,7 @@ class Blocks {
         return whole_.origin + edgeMetres() * (glm::dvec3(id % x, id / x % y, id / (x * y)) + 0.5);
     }
 
-    /// Those with density, in ascending order of their ids.
+    /// The blocks with density, in ascending order of their ids.
     [[nodiscard]] std::vector<Block> sums(const VolumeGrid& grid) const {
         std::vector<Block> filled;
         const glm::ivec3 first = volumes::firstCell(whole_, grid), low = first / edge_,
@@ -89,7 +89,7 @@ class Blocks {
     glm::ivec3 counts_;
 };
 
-/// The blocks of both, those that only `others` has without density.
+/// The blocks of both; those only in `others` without density.
 std::vector<Block> withEmpty(const std::vector<Block>& blocks, const std::vector<Block>& others) {
     std::vector<Block> all;
     std::ranges::set_union(blocks, others, std::back_inserter(all), {}, &Block::id, &Block::id);
@@ -104,7 +104,7 @@ std::vector<Block> withEmpty(const std::vector<Block>& blocks, const std::vector
 void requireFew(std::size_t particles, const std::string& file, int blockCells) {
     if (particles > static_cast<std::size_t>(files::limits::dustParticles))
         throw InputError(
-            fmt::format("{}: {} of its cells have density, allowed: {} (limit of dust), or block_cells of "
+            fmt::format("{}: {} of its cells have density, allowed: {} (limit of dust); set block_cells to "
                         "more than {} in a .toml",
                         file, particles, files::limits::dustParticles, blockCells));
 }
@@ -115,8 +115,8 @@ void add(DustMoment& moment, const Block& block, const Blocks& blocks, const vol
     const double opacity = -std::expm1(-mass / (2 * std::numbers::pi * s * s));
     if (opacity > maximumPuffOpacity)
         throw InputError(fmt::format(
-            "{}: a cell has an optical depth of {:.3g} by its edge, allowed for particles: {:.3g}; a lower "
-            "extinction_per_metre in a .toml, or finer cells",
+            "{}: a cell has an optical depth of {:.3g} along its edge, allowed for particles: {:.3g}; set a lower "
+            "extinction_per_metre in a .toml, or use finer cells",
             moment.file, mass / (edge * edge),
             -std::log1p(-maximumPuffOpacity) * 2 * std::numbers::pi * puffDeviationCells * puffDeviationCells));
     const glm::dvec3 middle = blocks.middleOf(block.id);
@@ -141,7 +141,7 @@ std::vector<DustMoment> dustOfVolume(const volumes::VolumeSeries& series, const 
     for (const VolumeGrid& grid : grids) whole = together(whole, grid);
     if (cellsOf(whole) > maximumIds)
         throw InputError(series.files().front().string() +
-                         ": the moments of the series lie too far apart for particles");
+                         ": the moments of the series are too far apart for particles");
     const Blocks blocks(whole, setup.blockCells);
     const bool hasVelocity = std::ranges::none_of(grids, [](const VolumeGrid& grid) { return grid.velocity.empty(); });
 

@@ -30,7 +30,7 @@ double share(double centre, double s, double low, double edge) {
     return 0.5 * (std::erf((low + edge - centre) * scale) - std::erf((low - centre) * scale));
 }
 
-/// Its extinction averaged over cells of an edge, in a box of ±3 m, where all but 1e-8 of it is.
+/// Extinction of the puff averaged over cells with this edge, in a box of ±3 m, which contains all but 1e-8 of it.
 VolumeGrid gridOf(const Gaussian& puff, double edge, double time = 0) {
     VolumeGrid grid;
     grid.cells = glm::ivec3(static_cast<int>(std::lround(6 / edge)));
@@ -122,7 +122,7 @@ TEST_F(VolumeDust, BetweenMomentsItChangesAsTheVolumeDoes) {
     const double expected = 0.75 * massOf(from) + 0.25 * massOf(to);
     EXPECT_NEAR(massOf(shown({from, to}, 0.5)), expected, 2e-7 * expected);
     EXPECT_NEAR(massOf(shown({from, to}, 2)), massOf(to), 2e-7 * massOf(to));
-    // Cells that begin or end between two moments are there all the time between.
+    // Cells that appear or disappear between two moments exist during the whole interval.
     VolumeGrid left = gridOf({}, 0.5, 0), right = left;
     std::ranges::fill(left.density, 0.0f);
     std::ranges::fill(right.density, 0.0f);
@@ -153,7 +153,7 @@ TEST_F(VolumeDust, CellsDenserThanAPuffCanBeAreRefused) {
     VolumeGrid grid = gridOf({}, 0.5);
     grid.density[3] = 50;
     EXPECT_THAT(inputError([&] { (void)shown({grid}); }),
-                HasSubstr("a.vdb: a cell has an optical depth of 25 by its edge, allowed for particles: 21.3"));
+                HasSubstr("a.vdb: a cell has an optical depth of 25 along its edge, allowed for particles: 21.3"));
 }
 
 TEST(VolumeDustFile, AVolumeIsDustAndItsSetupToo) {
@@ -175,7 +175,7 @@ TEST(VolumeDustFile, AVolumeIsDustAndItsSetupToo) {
     EXPECT_EQ(Puffs(store).position(0), glm::vec3(0.5f, 0.5f, 8.5f));
     EXPECT_THAT(turned.files(), testing::UnorderedElementsAre(setup, file));
     EXPECT_THAT(inputError([&] { (void)DustSeries::read(file, "radius=1"); }),
-                HasSubstr("--dust-columns: got it with the volume"));
+                HasSubstr("--dust-columns: not allowed with the volume"));
 }
 
 }  // namespace

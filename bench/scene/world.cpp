@@ -31,7 +31,7 @@ Drive readDrive(const std::filesystem::path& file, const std::string& id, const 
     if (speed > 0) {
         if (!drive.followsSpeed())
             throw InputError("parameter 'speed': the drive '" + id +
-                             "' goes by pedals and has no target speeds to replace");
+                             "' uses pedals and has no target speeds to replace");
         if (speed > vehicle.topSpeed)
             throw InputError("parameter 'speed': got " + files::csvNumber(speed) +
                              ", but the scene's vehicle has a top speed of " + files::csvNumber(vehicle.topSpeed));
@@ -40,7 +40,7 @@ Drive readDrive(const std::filesystem::path& file, const std::string& id, const 
     return drive;
 }
 
-/// Where the preroll must begin to end at `start`: the path that it drives, reversed. Exact on level ground.
+/// Where the preroll must begin to end at `start`: reverses the path that it drives. Exact on level ground.
 VehicleState placeBefore(const VehicleParameters& parameters, const scene::Terrain& terrain, const Start& start,
                          const ControlSource& controls, std::int64_t steps) {
     const std::unique_ptr<ControlSource> ahead = controls.clone();
@@ -71,19 +71,19 @@ const ParameterSet& worldParameters() {
     static const ParameterSet parameters = [] {
         ParameterSet set;
         set.integer("particles", 0, 0, 10'000'000, "",
-                    "dust particles to keep alive on average; 0: as many as the vehicle's speed raises");
-        set.real("speed", 0, 0, 60, "m/s", "replaces every target speed above 0 of the drive; 0: as the drive says");
+                    "dust particles to keep alive on average; 0: according to the vehicle's speed");
+        set.real("speed", 0, 0, 60, "m/s", "replaces every target speed above 0 of the drive; 0: the drive's own");
         set.real("preroll", -1, -1, 120, "s", "untimed simulation before the drive begins; below 0: one mean lifetime");
-        set.choice("camera", CameraKind::chase, cameraKinds, "which of the scene's cameras looks on");
+        set.choice("camera", CameraKind::chase, cameraKinds, "which of the scene's cameras");
         set.choice(
             "light", DustLight::none, dustLights,
-            "what lights the dust; none: it has one colour wherever it is; sun: sun and sky, and it shadows itself");
+            "what lights the dust; none: one colour everywhere; sun: sun and sky, with shadows of the dust on itself");
         return set;
     }();
     return parameters;
 }
 
-/// The dust that a file gives, and its particles now.
+/// Dust from a file, and its current particles.
 struct ShownDust {
     ShownDust(DustSeries given, std::int64_t heldSteps, glm::vec3 colour)
         : series(std::move(given)), stepsHeld(heldSteps) {
@@ -103,7 +103,7 @@ struct ShownDust {
     }
 
     DustSeries series;
-    std::int64_t stepsHeld;  ///< steps after which the first moment still shows
+    std::int64_t stepsHeld;  ///< steps during which the first moment is shown
     MemoryLedger ledger;
     particles::ParticleStore store{ledger};
 };
@@ -116,17 +116,17 @@ struct World::State {
     std::int64_t fixedCount;
     std::int64_t particlesPerPuff;
     bool raisesDust;
-    particles::ParticleSystem dust;  ///< stays empty if the wheels raise none
+    particles::ParticleSystem dust;  ///< stays empty if the wheels raise no dust
     std::unique_ptr<ControlSource> source;
     std::int64_t prerollSteps = 0;
-    std::int64_t stepIndex = 0;  ///< of the next step; 0 is the first of the drive
+    std::int64_t stepIndex = 0;  ///< of the next step; 0 is the first step of the drive
     Controls controls{};
     SceneState now{};
     CameraLag lag{};
-    std::optional<CameraPath> path{};    ///< instead of `camera`
-    std::unique_ptr<ShownDust> given{};  ///< instead of `dust`
+    std::optional<CameraPath> path{};    ///< replaces `camera`
+    std::unique_ptr<ShownDust> given{};  ///< replaces `dust`
     LitDust litDust{};
-    std::optional<Puffs> lit{};  ///< of this step and this camera, once it was asked for
+    std::optional<Puffs> lit{};  ///< for this step and camera, once requested
 
     [[nodiscard]] Puffs unlit() const { return given ? given->store : dust.store(); }
     [[nodiscard]] scene::Camera eyeCamera() const {
@@ -135,7 +135,7 @@ struct World::State {
 
     [[nodiscard]] const VehicleParameters& vehicle() const { return file.scene.vehicle->parameters; }
     [[nodiscard]] double time() const { return static_cast<double>(stepIndex) * stepSeconds; }
-    /// What the time alone says.
+    /// Updates everything that depends only on the time.
     void placeInTime() {
         now.timeSeconds = time();
         now.solids = file.movingSolids.at(file.scene, now.timeSeconds);
@@ -252,14 +252,14 @@ void World::followPath(const std::string& fileOrRows) {
 void World::useDust(const GivenDust& given) {
     State& s = *state_;
     if (given.file.empty()) {
-        if (!given.columns.empty()) throw InputError("--dust-columns: got it without --dust, whose columns it names");
+        if (!given.columns.empty()) throw InputError("--dust-columns: requires --dust");
         return;
     }
     if (s.stepIndex != -s.prerollSteps) throw std::logic_error("World::useDust: after the first step");
     if (s.fixedCount > 0)
         throw InputError(
-            fmt::format("parameter particles: got {} with --dust {}, allowed: 0, for the file says which "
-                        "particles there are",
+            fmt::format("parameter particles: got {} with --dust {}, allowed: 0, because the file defines the "
+                        "particles",
                         s.fixedCount, given.file));
     DustSeries series = DustSeries::read(given.file, given.columns);
     const double last = static_cast<double>(given.frames - 1) * stepSeconds;
@@ -271,7 +271,7 @@ void World::useDust(const GivenDust& given) {
     for (const std::filesystem::path& file : series.files()) s.file.files.push_back(file);
     if (series.albedo()) s.file.scene.dustAlbedo = *series.albedo();
     if (given.columns.ends_with(".toml")) s.file.files.emplace_back(given.columns);
-    // Frame 0 is the step after preroll and warm-up; without a preroll one step stands for it.
+    // Frame 0 is the step after preroll and warm-up; without a preroll, one step replaces it.
     const std::int64_t held = std::max<std::int64_t>(s.prerollSteps, 1) + given.warmup + 1;
     s.given = std::make_unique<ShownDust>(std::move(series), held, scene::dustColour(s.file.scene));
 }

@@ -45,22 +45,23 @@ class World {
 
     [[nodiscard]] const scene::Scene& scene() const;
     [[nodiscard]] const scene::SceneState& state() const;
-    /// The dust as methods show it; with `light=sun` lit as the camera sees it, which is computed once a step. Valid
-    /// until the next step or change of camera.
+    /// The dust as methods show it; with `light=sun`, lit as the camera sees it, computed once per step. Valid until
+    /// the next step or change of camera.
     [[nodiscard]] Puffs dust() const;
-    /// The same in the colours that it has without light. Valid until the next step.
+    /// The same with its colours without light. Valid until the next step.
     [[nodiscard]] Puffs unlitDust() const;
     [[nodiscard]] scene::View view(int width, int height) const;
-    /// The camera from now on; nothing else of the world changes. At first it is that of the parameter `camera`.
+    /// Sets the camera; nothing else changes. The initial camera is that of the parameter `camera`.
     void look(CameraKind camera);
     void follow(CameraPath path);
     /// follow() the rows or the file of a camera path (CameraPath::read), which then is one of the input files; an
     /// empty text changes nothing.
     void followPath(const std::string& fileOrRows);
 
-    /// Particles from a file in place of the scene's own, from the first step on; an empty file name changes nothing.
-    /// Its files then are input files. The preroll is as long as with the scene's dust. Call before the first step.
-    /// Throws InputError for an error in the files, if they end before the last frame, and with `particles` above 0.
+    /// Uses particles from a file instead of the scene's own, from the first step on; an empty file name changes
+    /// nothing. Its files become input files. The preroll is as long as with the scene's dust. Call before the first
+    /// step. Throws InputError for an error in the files, if they end before the last frame, and if `particles` is
+    /// above 0.
     void useDust(const GivenDust& given);
     /// True if the dust is from a file.
     [[nodiscard]] bool hasGivenDust() const;
@@ -70,10 +71,10 @@ class World {
 
     /// Number of steps of the untimed preroll, which builds up the cloud before recording begins.
     [[nodiscard]] std::int64_t prerollSteps() const;
-    /// Length of the drive; after it the last row holds.
+    /// Length of the drive; after it the last row applies.
     [[nodiscard]] double driveSeconds() const;
     [[nodiscard]] const std::string& driveId() const;
-    /// False: nothing of the scene is seen.
+    /// False if the scene is invisible.
     [[nodiscard]] bool isSceneDrawn() const;
 
     /// Gets the controls of the next step (stage `input`).

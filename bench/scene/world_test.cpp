@@ -80,7 +80,7 @@ TEST(World, SolidsGoByTheTimeAloneAndCountAmongItsState) {
 }
 
 TEST(World, ARecordingPlayedAgainEndsInTheSameState) {
-    for (const char* drive : {"acceleration", "stop_and_go"}) {  // start at rest, as a pedal file does
+    for (const char* drive : {"acceleration", "stop_and_go"}) {  // start at rest, like a pedal file
         World world("plain", drive, with({{"preroll", "0"}}), 5);
         ControlRecording recording;
         for (int step = 0; step < 300; ++step) {
@@ -243,7 +243,7 @@ TEST(World, SunlightChangesColoursAloneAndByTheClosedForm) {
         darkest = std::min(darkest, transmittance);
     }
     EXPECT_LT(darkest, 0.8f);
-    // Another camera sees other colours: light scatters forwards.
+    // Another camera sees other colours, because light scatters forwards.
     const glm::vec3 seen = after.colour(0);
     lit.look(CameraKind::orbit);
     EXPECT_NE(lit.dust().colour(0), seen);
@@ -296,7 +296,7 @@ TEST(World, SaysInOneLineWhatIsWrongWithItsInput) {
     EXPECT_THAT(inputError([&] {
                     World("plain", pedals.string(), with({{"speed", "10"}}), 1);
                 }),
-                HasSubstr("goes by pedals"));
+                HasSubstr("uses pedals"));
     const auto slow = folder.write("slow.toml", "description = \"slow\"\n[vehicle]\ntop_speed = 20\n");
     EXPECT_THAT(inputError([&] {
                     World(slow.string(), "", with({{"speed", "30"}}), 1);

@@ -116,8 +116,9 @@ Check barriers(gpu::Device& device) {
     constexpr int passes = 16;
     std::vector<std::uint32_t> expected(count);
     std::iota(expected.begin(), expected.end(), 0u);
-    std::array<gpu::Buffer, 2> buffers{gpu::Buffer(device, "selfcheck reversal", std::span<const std::uint32_t>(expected)),
-                                       gpu::Buffer(device, "selfcheck reversal", count * sizeof(std::uint32_t))};
+    std::array<gpu::Buffer, 2> buffers{
+        gpu::Buffer(device, "selfcheck reversal", std::span<const std::uint32_t>(expected)),
+        gpu::Buffer(device, "selfcheck reversal", count * sizeof(std::uint32_t))};
     const gpu::Program program(device, "selfcheck reversal", {shaders::reversal_comp});
     for (std::size_t pass = 0; pass < passes; ++pass) {
         buffers[pass % 2].bindStorage(0);
@@ -246,13 +247,13 @@ DeviceRates measureRates(gpu::Device& device, const std::function<void()>& under
 std::vector<Check> rateChecks(const DeviceRates& rates, bool isSoftware) {
     constexpr double slow = 0.25;  // GPUs made for drawing reach 0.8 to 1; an H100 about 0.03
     const bool misleads = !isSoftware && rates.fragmentShare < slow;
-    return {{"fill rate", Outcome::ok, fmt::format("{:.3g} Gpixel/s", rates.blendedGigapixels), "",
-             "blended, RGBA32F"},
+    return {{"fill rate", Outcome::ok, fmt::format("{:.3g} Gpixel/s", rates.blendedGigapixels), "", "blended, RGBA32F"},
             {"arithmetic", Outcome::ok, fmt::format("{:.3g} GFLOP/s", rates.gigaflops), "", "compute shader"},
             {"fragment shaders", misleads ? Outcome::attention : Outcome::ok,
              fmt::format("{:.2f} of the arithmetic rate", rates.fragmentShare), fmt::format("at least {}", slow),
              misleads ? "this GPU is not made for drawing: its frame rates do not carry over to GPUs that are" : ""},
-            {"memory", Outcome::ok, fmt::format("{:.3g} GB/s", rates.copiedGigabytes), "", "compute shader, read plus written"}};
+            {"memory", Outcome::ok, fmt::format("{:.3g} GB/s", rates.copiedGigabytes), "",
+             "compute shader, read plus written"}};
 }
 
 }  // namespace dustbench::bench

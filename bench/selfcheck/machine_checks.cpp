@@ -24,9 +24,10 @@ Check gpuClockCheck(const GpuClockReadings& readings) {
     if (!readings.before || !readings.during || !readings.after)
         return {"GPU clock", Outcome::ok, "not reported", "", "read by NVML on NVIDIA's GPUs"};
     const auto& [before, during, after] = readings;
-    Check check{"GPU clock", Outcome::ok,
-                fmt::format("{} MHz before, {} under load, {} after", before->megahertz, during->megahertz, after->megahertz),
-                "not falling under load"};
+    Check check{
+        "GPU clock", Outcome::ok,
+        fmt::format("{} MHz before, {} under load, {} after", before->megahertz, during->megahertz, after->megahertz),
+        "not falling under load"};
     if (!during->throttledBy.empty()) {
         check.outcome = Outcome::attention;
         check.note = "held down by: " + during->throttledBy;

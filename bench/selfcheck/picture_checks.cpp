@@ -93,7 +93,8 @@ double compared(const fs::path& reference, const fs::path& picture, double limit
     return *found.value;
 }
 
-Check checkOf(const PlannedPicture& planned, const ResultsFolder& results, const fs::path& kept, const fs::path& drawn) {
+Check checkOf(const PlannedPicture& planned, const ResultsFolder& results, const fs::path& kept,
+              const fs::path& drawn) {
     Check check{"picture " + planned.name, Outcome::failed, "", fmt::format("FLIP at most {}", planned.flipLimit)};
     if (!planned.skip.empty()) {
         check.outcome = Outcome::attention;
@@ -140,8 +141,8 @@ std::vector<PlannedPicture> readPlannedPictures(const fs::path& file) {
     return planned;
 }
 
-std::vector<Check> pictureChecks(const std::vector<PlannedPicture>& planned, const fs::path& kept, const fs::path& drawn,
-                                 const ExecutionOptions& options, ExecutionListener& listener) {
+std::vector<Check> pictureChecks(const std::vector<PlannedPicture>& planned, const fs::path& kept,
+                                 const fs::path& drawn, const ExecutionOptions& options, ExecutionListener& listener) {
     fs::create_directories(drawn);
     std::vector<PlannedRun> plan;
     std::set<std::string> ids, seen;

@@ -58,8 +58,7 @@ TEST(DeviceChecks, PassOnThisDevice) {
 TEST(DeviceChecks, NameADriverThatStoresFewerBits) {
     gpu::Device device;
     const auto store = +[](GLuint texture, GLsizei levels, GLenum format, GLsizei width, GLsizei height) {
-        static const auto real =
-            reinterpret_cast<PFNGLTEXTURESTORAGE2DPROC>(eglGetProcAddress("glTextureStorage2D"));
+        static const auto real = reinterpret_cast<PFNGLTEXTURESTORAGE2DPROC>(eglGetProcAddress("glTextureStorage2D"));
         real(texture, levels, format == GL_RGBA32F ? GL_RGBA16F : format, width, height);
     };
     const Planted fault(epoxy_glTextureStorage2D, static_cast<PFNGLTEXTURESTORAGE2DPROC>(store));
@@ -192,7 +191,8 @@ TEST(PlannedPictures, OfAMissingMethodAreSkippedWithTheReason) {
 
 TEST(SelfcheckJson, SaysWhetherAllPassed) {
     const auto passed = [](Outcome outcome) {
-        return nlohmann::json::parse(selfcheckJson({}, {{"a", Outcome::ok, "1", "1"}, {"b", outcome, "2", "3"}}))["passed"]
+        return nlohmann::json::parse(
+                   selfcheckJson({}, {{"a", Outcome::ok, "1", "1"}, {"b", outcome, "2", "3"}}))["passed"]
             .get<bool>();
     };
     EXPECT_TRUE(passed(Outcome::attention));

@@ -19,7 +19,7 @@ RunSpec baselineOf(RunSpec spec) {
     return spec;
 }
 
-/// Of two numbers of repetitions the larger; 0 stands for all.
+/// The larger of two numbers of repetitions; 0 means all.
 int moreOf(int a, int b) {
     return a == 0 || b == 0 ? 0 : std::max(a, b);
 }
@@ -29,7 +29,7 @@ int moreOf(int a, int b) {
 Suite withBaselines(Suite suite) {
     if (!suite.baseline || !findBaseline()) return suite;
     std::vector<Axis> axes = worldAxes(cellsOf(suite));
-    std::erase_if(axes, [](const Axis& axis) { return axis.name == "scene"; });  // it stands beside the label
+    std::erase_if(axes, [](const Axis& axis) { return axis.name == "scene"; });  // shown separately from the label
     std::map<std::string, std::size_t> added;                                    // by world
     std::vector<PlannedRun> baselines;
     for (const PlannedRun& cell : suite.cells) {

@@ -76,7 +76,7 @@ TEST_F(Baselines, RunInEveryRoundBesideTheirWorld) {
         ++(isBaseline(run) ? baselineRuns : methodRuns)[{worldKey(run.spec), run.spec.repetition}];
     ASSERT_EQ(baselineRuns.size(), methodRuns.size());
     for (const auto& [world, runs] : methodRuns) EXPECT_EQ(baselineRuns[world], 1);
-    // A world's three runs stand together, and take turns to be first.
+    // The three runs of a world are adjacent and alternate in order.
     std::set<std::size_t> places;
     for (std::size_t i = 0; i < plan.size(); i += 3)
         for (std::size_t j = 0; j < 3; ++j) {
@@ -96,7 +96,7 @@ TEST_F(Baselines, AreLeftOutWhereNoTimeIsAskedFor) {
                                    "columns = [\"frame_ms_median\"]\n"))
                   .size(),
               2u);
-    // The short form decides by its own repetitions.
+    // A quick run uses its own number of repetitions.
     EXPECT_FALSE(parseSuite(one + "repetitions = 2\n[quick]\nrepetitions = 1\n", "s", true).baseline);
     EXPECT_THAT(inputError([&] { (void)parsed(one + "baseline = 1\n"); }), testing::HasSubstr("baseline"));
 }

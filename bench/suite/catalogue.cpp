@@ -32,14 +32,14 @@ std::vector<CatalogueItem> listMetrics() {
     add("fps_1pct_low", "frame rate of the slowest frames that make up 1 % of the time, 1/s");
     add("frame_ms_p999", "99.9th percentile of the frame times, ms");
     add("fps_01pct_low", "frame rate of the slowest frames that make up 0.1 % of the time, 1/s");
-    add("frame_ms_min", "shortest frame, ms: for frames of equal work, what the machine does undisturbed");
+    add("frame_ms_min", "shortest frame, ms: for frames of equal work, the time without disturbance by the machine");
     for (const std::string_view stage : stageNames)
         add(fmt::format("{}_ms_median", stage), fmt::format("median time of the stage '{}', ms", stage));
-    add("gpu_ms_median", "median GPU time of scene and drawing, where timer queries are true, ms");
-    add("harness_us_median", "median time of a frame outside every stage: the harness's own share, µs");
-    add("cpu_bytes", "largest CPU memory of world and method, bytes");
-    add("gpu_bytes", "largest memory of all buffers and textures, bytes");
-    add("rss_peak_bytes", "largest resident set of the run's process, bytes");
+    add("gpu_ms_median", "median GPU time of scene and drawing, where timer queries are reliable, ms");
+    add("harness_us_median", "median time of a frame outside all stages: the overhead of the harness, µs");
+    add("cpu_bytes", "maximum CPU memory of world and method, bytes");
+    add("gpu_bytes", "maximum memory of all buffers and textures, bytes");
+    add("rss_peak_bytes", "maximum resident set of the run's process, bytes");
     add("particles_median", "median number of dust particles");
     add("primitives_median", "median number of primitives that the method drew");
     for (const MetricInfo& metric : metricInfos()) add(std::string(metric.column), std::string(metric.title));

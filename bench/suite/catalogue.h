@@ -11,13 +11,13 @@ namespace dustbench::bench {
 
 struct CatalogueItem {
     std::string kind;  ///< one of catalogueKinds()
-    std::string id;    ///< of a part: `kind/name`
+    std::string id;    ///< `kind/name` for a part
     std::string title;
     std::string summary;
-    std::string source;                   ///< key in data/references.bib, for a part with section; or empty
-    std::vector<Parameter> parameters{};  ///< of a part: the keys of its table
-    std::int64_t panels = 0;              ///< of a scene
-    std::string origin{};                 ///< of a method from outside: its library; otherwise empty
+    std::string source;                   ///< key in data/references.bib, with the section for a part; may be empty
+    std::vector<Parameter> parameters{};  ///< for a part: the keys of its table
+    std::int64_t panels = 0;              ///< for a scene
+    std::string origin{};                 ///< for an external method: its library; otherwise empty
 };
 
 /// `methods scenes drives suites experiments metrics parts`
@@ -30,7 +30,7 @@ struct CatalogueItem {
 [[nodiscard]] CatalogueItem findItem(const std::string& kind, const std::vector<CatalogueItem>& items,
                                      const std::string& id);
 
-/// Parameters of the world, which are the same for every method.
+/// Parameters of the world, the same for every method.
 [[nodiscard]] const std::vector<Parameter>& worldParameterList();
 
 /// An array of objects.

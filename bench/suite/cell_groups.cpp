@@ -10,7 +10,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Disjoint sets of cells (union-find); each set is identified by its first cell.
+/// Disjoint sets of configurations (union-find); each set is identified by its first one.
 class CellGroups {
  public:
     explicit CellGroups(std::size_t cells) : parents_(cells) { std::iota(parents_.begin(), parents_.end(), 0); }

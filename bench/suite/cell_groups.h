@@ -1,6 +1,6 @@
-// Groups the cells of a suite: all methods of one world, and worlds that are linked by a comparison.
+// Groups the configurations (cells) of a suite: all methods of one world, and worlds that a comparison links.
 //
-// The cells of a group run on one machine, and consecutively within a round.
+// The configurations of a group run on one machine, and consecutively within a round.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace dustbench::bench {
 
-/// For each cell, the index of the first cell of its group.
+/// For each configuration, the index of the first one of its group.
 [[nodiscard]] std::vector<std::size_t> groupCells(const Suite& suite);
 
 }  // namespace dustbench::bench

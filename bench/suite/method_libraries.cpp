@@ -41,9 +41,9 @@ std::vector<std::string> partsOf(std::string_view text, char separator) {
 std::string checkedFolder(std::string_view option, const std::string& named) {
     if (!fs::is_directory(named))
         throw InputError(
-            fmt::format("{}: '{}': no such folder, expected one with libraries *{}", option, named, ending));
+            fmt::format("{}: '{}': no such folder, expected a folder of libraries *{}", option, named, ending));
     if (named.find(':') != std::string::npos)
-        throw InputError(fmt::format("{}: '{}': has a ':', which separates folders", option, named));
+        throw InputError(fmt::format("{}: '{}': contains a ':', which separates folders", option, named));
     return fs::canonical(named).string();
 }
 
@@ -57,7 +57,7 @@ std::vector<fs::path> folders() {
     return list;
 }
 
-/// Libraries of a folder, by id; with them links that lead nowhere.
+/// Libraries of a folder, by id, including dangling links.
 std::vector<MethodLibrary> librariesIn(const fs::path& folder) {
     std::vector<MethodLibrary> found;
     for (const auto& entry : fs::directory_iterator(folder)) {
@@ -71,15 +71,16 @@ std::vector<MethodLibrary> librariesIn(const fs::path& folder) {
     return found;
 }
 
-/// Of libraries that are in order; they stay loaded, for methods and parts hold their code.
+/// Describes a library; returns why it cannot be used, or an empty text. It stays loaded, because methods and parts
+/// refer to its code.
 std::string describeBy(const library::MethodEntry& entry, const std::string& id, LibraryContents& contents) {
     static const std::string own = library::buildFingerprint();
     if (entry.api != library::methodApi)
         return fmt::format("built for version {} of the interface, expected {}: build it against this dustbench",
                            entry.api, library::methodApi);
     if (const std::string difference = fingerprintDifference(entry.fingerprint, own); !difference.empty())
-        return "built otherwise than this program: " + difference;
-    if (id != entry.id) return fmt::format("its id is '{}', expected '{}' by the file's name", entry.id, id);
+        return "built with other settings than this program: " + difference;
+    if (id != entry.id) return fmt::format("its id is '{}', expected '{}' as in the file name", entry.id, id);
     try {
         if (entry.describe != nullptr) entry.describe(&contents.method.emplace());
         if (entry.describeParts != nullptr) entry.describeParts(&contents.parts);
@@ -88,7 +89,7 @@ std::string describeBy(const library::MethodEntry& entry, const std::string& id,
     }
     const bool isWhole = (!contents.method || contents.method->create) &&
                          std::ranges::all_of(contents.parts, [](const auto& part) { return part.create != nullptr; });
-    return isWhole ? "" : "its describe() gives no create";
+    return isWhole ? "" : "its describe() sets no create";
 }
 
 std::string lastLoaderError() {
@@ -96,7 +97,8 @@ std::string lastLoaderError() {
     return text == nullptr ? "cannot be loaded" : text;
 }
 
-/// First of all parts whether they are new, so that a library is taken whole or not at all. Throws InputError.
+/// Checks first that the names of all parts are new, so that a library is added completely or not at all. Throws
+/// InputError.
 void addContents(LibraryContents contents, const MethodLibrary& library) {
     for (const particles::PartInfo& part : contents.parts) particles::requireNewPart(part);
     if (contents.method) {
@@ -110,11 +112,11 @@ void addContents(LibraryContents contents, const MethodLibrary& library) {
     }
 }
 
-/// A library may end the process that loads it, as those with sanitizers do.
+/// Loads the library in a child first: it may end its process, as libraries with sanitizers do.
 std::string whyNotTaken(const MethodLibrary& library) {
     static const std::regex allowed("[a-z][a-z0-9_]*");
     if (!std::regex_match(library.id, allowed))
-        return "its name has other characters than lower case letters, digits and '_'";
+        return "its name contains characters other than lower-case letters, digits and '_'";
     LibraryContents contents;
     std::string whyNot = triedInChild([&] { return loadLibrary(library.file, library.id, contents); });
     if (whyNot.empty()) whyNot = loadLibrary(library.file, library.id, contents);
@@ -157,10 +159,10 @@ std::string loadLibrary(const fs::path& file, const std::string& id, LibraryCont
     void* const function = dlsym(library, library::methodEntryName);
     if (function == nullptr) {
         dlclose(library);
-        return fmt::format("no library of a method: it has no function {}", library::methodEntryName);
+        return fmt::format("not a method library: it has no function {}", library::methodEntryName);
     }
     const library::MethodEntry* const entry = reinterpret_cast<library::MethodEntryFunction>(function)();
-    return entry == nullptr ? "its entry is empty" : describeBy(*entry, id, contents);
+    return entry == nullptr ? "its entry function returns null" : describeBy(*entry, id, contents);
 }
 
 std::string fingerprintDifference(std::string_view got, std::string_view expected) {

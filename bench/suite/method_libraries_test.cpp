@@ -40,9 +40,9 @@ TEST(MethodLibraries, AnIdIsGivenOnce) {
     EXPECT_EQ(methods().size(), before + 1);
     EXPECT_TRUE(std::ranges::is_sorted(methods(), {}, &MethodInfo::id));
     EXPECT_EQ(findMethod("outside_for_this_test").library, info.library);
-    EXPECT_THAT(inputError([&] { addMethod(info); }), HasSubstr("is there already, from /somewhere"));
+    EXPECT_THAT(inputError([&] { addMethod(info); }), HasSubstr("already exists, from /somewhere"));
     info.id = "null_method";
-    EXPECT_THAT(inputError([&] { addMethod(info); }), HasSubstr("is there already, in this build"));
+    EXPECT_THAT(inputError([&] { addMethod(info); }), HasSubstr("already exists, in this build"));
 }
 
 TEST(MethodLibraries, ALibraryIsAnInputOfWhatUsesIt) {
@@ -68,18 +68,18 @@ TEST(MethodLibraries, ALibraryIsAnInputOfWhatUsesIt) {
 TEST(MethodLibraries, APartIsGivenOnceAndKnowsItsName) {
     particles::PartInfo part = particles::findPart(particles::PartKind::size, "linear");
     EXPECT_THAT(inputError([&] { particles::addPart(part); }),
-                HasSubstr("size part 'linear' is there already, in this build"));
+                HasSubstr("size part 'linear' already exists, in this build"));
     part.name = "new_for_this_test";
     part.library = "/somewhere/part.dustmethod.so";
     particles::addPart(part);
     EXPECT_EQ(particles::makePart(particles::PartKind::size, "new_for_this_test")->name(), "new_for_this_test");
-    EXPECT_THAT(inputError([&] { particles::addPart(part); }), HasSubstr("is there already, from /somewhere"));
+    EXPECT_THAT(inputError([&] { particles::addPart(part); }), HasSubstr("already exists, from /somewhere"));
 }
 
 TEST(MethodLibraries, ARefusedOneIsNamedWhenItIsAskedFor) {
     noteRefusedMethod("refused_for_this_test", "x.so", "it is old");
     EXPECT_EQ(inputError([] { (void)findMethod("refused_for_this_test"); }),
-              "method 'refused_for_this_test': 'x.so' is not taken: it is old");
+              "method 'refused_for_this_test': 'x.so' was not loaded: it is old");
 }
 
 TEST(MethodLibraries, FoldersMustExist) {

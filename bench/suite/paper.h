@@ -1,4 +1,4 @@
-// A paper in data/papers/: its description and the suites that are its experiments.
+// A paper in data/papers/: its description and its experiments, which are suites.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,11 @@ struct Paper {
     std::vector<std::string> controls;     ///< suites that only the claims' controls need
 };
 
-/// A file of the paper's folder; empty where it has none. Papers do not mix: all files of one come from the first
-/// folder of data that has `papers/<id>`.
+/// A file of the paper's folder; empty if it does not exist. All files of a paper come from the first data folder that
+/// contains `papers/<id>`.
 [[nodiscard]] std::filesystem::path paperFile(const std::string& id, const std::string& name);
 
-/// Ids of the papers in the folders of data, sorted.
+/// Ids of the papers in the data folders, sorted.
 [[nodiscard]] std::vector<std::string> listPapers();
 
 /// Throws InputError for an unknown id (with the nearest), or an error in its paper.toml.

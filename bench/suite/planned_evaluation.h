@@ -10,7 +10,7 @@
 
 namespace dustbench::bench {
 
-/// The cells of one method, optionally only those with these parameters: `octree_search layout=morton`.
+/// The configurations of one method, optionally only those with given parameters: `octree_search layout=morton`.
 struct ComparedSide {
     std::string method;
     ParameterTexts pinned;  ///< in canonical form
@@ -19,7 +19,7 @@ struct ComparedSide {
 
 struct PlannedComparison {
     ComparedSide of, with;
-    std::vector<std::string> columns;  ///< of summary.csv
+    std::vector<std::string> columns;  ///< columns of summary.csv
     std::string where;                 ///< `file:line: `, for messages
 };
 
@@ -29,7 +29,7 @@ struct PlannedComparison {
                                                              const std::vector<std::string>& methods);
 
 struct PlannedFit {
-    std::vector<std::string> columns;  ///< of summary.csv
+    std::vector<std::string> columns;  ///< columns of summary.csv
     std::string against;               ///< the parameter that is the load
     std::string where;                 ///< `file:line: `, for messages
 };

@@ -1,4 +1,4 @@
-// What the process of a run may use.
+// Resource limits of the process of a run.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@ namespace dustbench::bench {
 
 /// 0: no limit.
 struct ResourceLimits {
-    std::int64_t memoryMegabytes = 0;  ///< private memory that can be written, in units of 10^6 bytes
+    std::int64_t memoryMegabytes = 0;  ///< private writable memory, in units of 10^6 bytes
     std::int64_t cpuSeconds = 0;       ///< of all its threads together
 };
 

@@ -28,12 +28,12 @@ Shard parseShard(std::string_view text) {
 
 std::vector<int> shardOfCells(const Suite& suite, int count) {
     const std::vector<std::size_t> groups = groupCells(suite);
-    std::map<std::size_t, std::size_t> sizes;  // by a group's first cell
+    std::map<std::size_t, std::size_t> sizes;  // by the first configuration of a group
     for (const std::size_t group : groups) ++sizes[group];
     std::vector<std::pair<std::size_t, std::size_t>> largestFirst(sizes.begin(), sizes.end());
     std::ranges::stable_sort(largestFirst, std::ranges::greater(), [](const auto& entry) { return entry.second; });
 
-    std::set<std::pair<std::size_t, int>> loads;  // ordered by the number of cells, then by shard number
+    std::set<std::pair<std::size_t, int>> loads;  // ordered by the number of configurations, then by shard number
     for (int shard = 1; shard <= count; ++shard) loads.emplace(0, shard);
     std::map<std::size_t, int> shardOfGroup;
     for (const auto& [first, size] : largestFirst) {

@@ -1,8 +1,8 @@
 // Splits a suite into parts for several machines: `--shard 2/3`.
 //
-// Runs that are compared with each other must run on one machine, so groups of cells (cell_groups.h) are distributed
-// with all their repetitions. The largest group goes first, each to the shard with the fewest runs. The split depends
-// only on the suite; run ids do not depend on it.
+// Runs that are compared with each other must run on one machine, so whole groups of configurations (cell_groups.h) are
+// assigned with all their repetitions: in order of size, largest first, each to the shard with the smallest number of
+// runs. The split depends only on the suite; run ids do not depend on the split.
 #pragma once
 
 #include <cstddef>
@@ -22,10 +22,10 @@ struct Shard {
 
 inline constexpr int maximumShards = 10'000;
 
-/// The shard of every cell, from 1.
+/// The shard of every configuration, from 1.
 [[nodiscard]] std::vector<int> shardOfCells(const Suite& suite, int count);
 
-/// The suite with only the shard's cells. Verdicts are omitted: they need the whole suite.
+/// The suite with only the shard's configurations, without verdicts, which need the whole suite.
 [[nodiscard]] Suite partOf(const Suite& suite, Shard shard);
 
 /// The shard's runs, in the order of the whole suite's plan.

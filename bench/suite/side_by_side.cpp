@@ -31,16 +31,16 @@ Variant parseVariant(const std::string& text) {
         const std::string name = word.substr(0, equals);
         if (worldParameters().find(name))
             throw InputError(
-                fmt::format("compare: got '{}', but {} belongs to the world, which is one for all: give "
-                            "it by -P",
+                fmt::format("compare: got '{}', but {} belongs to the world, which all methods share: set "
+                            "it with -P",
                             text, name));
         if (!variant.own.emplace(name, word.substr(equals + 1)).second)
-            throw InputError(fmt::format("compare: got '{}', which names {} twice", text, name));
+            throw InputError(fmt::format("compare: got '{}', which sets {} twice", text, name));
     }
     return variant;
 }
 
-/// Throws for a parameter that no method and not the world has.
+/// Throws for a parameter that neither a method nor the world has.
 void requireKnown(const ParameterTexts& given, const std::vector<Variant>& variants) {
     for (const auto& [name, value] : given) {
         if (worldParameters().find(name)) continue;
@@ -80,7 +80,7 @@ Suite sideBySideSuite(const std::vector<std::string>& variants, const ParameterT
             cell.label += (cell.label.empty() ? "" : " ") + name + "=" + cell.spec.parameters.at(name);
         if (!seen.insert(runId(cell.spec)).second)
             throw InputError(
-                fmt::format("compare: got '{}' twice, expected methods or parameters that differ", variants[i]));
+                fmt::format("compare: got '{}' twice, expected different methods or parameters", variants[i]));
         sides.push_back({method->id, cell.spec.parameters, method->id + (cell.label.empty() ? "" : " " + cell.label)});
         suite.title += (i ? ", " : "") + sides.back().label;
         suite.cells.push_back(std::move(cell));

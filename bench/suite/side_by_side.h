@@ -8,9 +8,9 @@
 
 namespace dustbench::bench {
 
-/// `METHOD` or `METHOD:name=value,name=value` with parameters of that method. `given` holds further parameters, of the
-/// world or of methods; those of methods are given to each method that has them. Every method is judged and compared
-/// with the first. `base` specifies the rest. Throws InputError.
+/// Each method is `METHOD` or `METHOD:name=value,name=value`, with parameters of that method. `given` contains further
+/// parameters, of the world or of methods; each method gets those that it has. Every method gets metrics and is
+/// compared with the first one. `base` specifies the rest. Throws InputError.
 [[nodiscard]] Suite sideBySideSuite(const std::vector<std::string>& variants, const ParameterTexts& given,
                                     const RunSpec& base, int repetitions);
 

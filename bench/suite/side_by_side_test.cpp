@@ -58,7 +58,7 @@ TEST_F(MethodComparison, RefusesInOneLine) {
     EXPECT_THAT(refused({"billboard", "billboard:sort=radix"}), HasSubstr("twice"));  // the default
     EXPECT_THAT(refused({"billboard", "billboard:soft"}), HasSubstr("METHOD:name=value"));
     EXPECT_THAT(refused({"billboard", "billboard:"}), HasSubstr("METHOD:name=value"));
-    EXPECT_THAT(refused({"billboard", "billboard:soft=true,soft=true"}), HasSubstr("names soft twice"));
+    EXPECT_THAT(refused({"billboard", "billboard:soft=true,soft=true"}), HasSubstr("sets soft twice"));
     EXPECT_THAT(refused({"billboard", "billboard:soft=2"}), AllOf(HasSubstr("soft"), HasSubstr("'2'")));
     EXPECT_THAT(refused({"billboard", "billboard:speed=5"}), HasSubstr("belongs to the world"));
     EXPECT_THAT(refused({"billboard", "billboard:soft=true"}, {{"sofd", "1"}}), HasSubstr("did you mean 'soft'"));

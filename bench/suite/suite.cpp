@@ -44,7 +44,7 @@ bool covers(const Exception& exception, const RunSpec& cell) {
            std::ranges::all_of(exception.parameters, hasOneOf);
 }
 
-/// Returns the number of cells that it excludes wholly or in part.
+/// Returns the number of configurations that it excludes, completely or for some repetitions.
 std::size_t leaveOut(const Exception& exception, std::vector<PlannedRun>& cells) {
     const auto isCovered = [&](const PlannedRun& cell) { return covers(exception, cell.spec); };
     std::size_t count = 0;
@@ -66,7 +66,7 @@ std::size_t leaveOut(const Exception& exception, std::vector<PlannedRun>& cells)
     return count;
 }
 
-/// Throws InputError if no run of the suite has the load that its chart opens on. A cost is one of every run.
+/// Throws InputError if no run of the suite has the load of its chart. Every run has the costs.
 void requireLoad(const Suite& suite, const std::string& where) {
     const std::string& name = suite.chart.against;
     std::set<std::string> known{"drive", "scene", "seed", "size"};
@@ -78,7 +78,7 @@ void requireLoad(const Suite& suite, const std::string& where) {
     throw InputError(where + unknownName("load of the chart", name, names).what());
 }
 
-/// Throws InputError if a suite without times has what is about times.
+/// Throws InputError if a suite without times uses a key that concerns times.
 void requireNothingTimed(const SuiteDraft& draft) {
     const Suite& suite = draft.suite;
     if (draft.base.timed) return;
@@ -86,17 +86,18 @@ void requireNothingTimed(const SuiteDraft& draft) {
         throw InputError(fmt::format("{}key 'times': got false with {}", draft.timesWhere, what));
     };
     if (suite.repetitions > 1)
-        fail(fmt::format("{} repetitions, allowed: 1, because they differ in times alone", suite.repetitions));
+        fail(fmt::format("{} repetitions, allowed: 1, because repetitions differ only in their times",
+                         suite.repetitions));
     if (!suite.comparisons.empty()) fail("'compare', which compares times");
     if (!suite.fits.empty()) fail("'fit', which fits times");
-    if (draft.baseline.value_or(false)) fail("'baseline = true', which is for times");
-    if (suite.cooldownSeconds > 0) fail("'cooldown_s', which is for times");
+    if (draft.baseline.value_or(false)) fail("'baseline = true', which compares times");
+    if (suite.cooldownSeconds > 0) fail("'cooldown_s', which steadies times");
     if (suite.chart.column.empty() || dependsOnSpeed(suite.chart.column))
-        fail(fmt::format("a chart that opens on '{}', expected 'chart' with a column that is no time",
+        fail(fmt::format("a chart that opens on '{}', expected 'chart' with a column that is not a time",
                          suite.chart.column.empty() ? "fps_avg" : suite.chart.column));
 }
 
-/// Checked before the cells are made.
+/// Called before the configurations are created.
 void requireFewEnough(const std::string& what, double runs) {
     if (runs > static_cast<double>(files::limits::plannedRuns))
         throw InputError(fmt::format("{}: got {:.0f} planned runs, allowed: {} (limit of a command)", what, runs,
@@ -109,7 +110,7 @@ double combinations(const ParameterLists& lists) {
     return product;
 }
 
-/// The parameters' values for one method of the suite.
+/// The parameter values for one method of the suite.
 ParameterLists listsOf(const SuiteDraft& draft, const std::string& id) {
     ParameterLists lists = draft.parameters;
     for (const auto& [method, own] : draft.methodParameters)
@@ -126,7 +127,8 @@ void requireFewEnough(const SuiteDraft& draft) {
     requireFewEnough("suite", cells * draft.suite.repetitions);
 }
 
-/// `wholeFile`: an exception that excludes nothing is an error; in `[quick]`, which has fewer cells, it is not.
+/// `wholeFile`: an exception that excludes nothing is an error. In `[quick]`, which has fewer configurations, it is
+/// not.
 Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
     requireFramesWithinRun(draft.base);
     requireFewEnough(draft);
@@ -158,12 +160,12 @@ Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
     }
     for (const Exception& exception : draft.exceptions)
         if (leaveOut(exception, suite.cells) == 0 && wholeFile)
-            throw InputError(exception.where + "except: leaves nothing out, no cell has these values");
-    // Without repetitions there is no interval, so such a suite is not about time.
+            throw InputError(exception.where + "except: matches no configuration");
+    // Without repetitions there are no intervals, so such a suite does not compare times.
     suite.baseline =
         draft.baseline.value_or(suite.repetitions > 1 || !suite.comparisons.empty() || !suite.fits.empty());
     if (std::ranges::all_of(suite.cells, [](const PlannedRun& cell) { return !cell.skip.empty(); }))
-        throw InputError("suite: nothing is left of it by its exceptions");
+        throw InputError("suite: its exceptions exclude every configuration");
     for (const PlannedComparison& comparison : suite.comparisons) (void)matchCells(suite, comparison);
     for (const PlannedFit& fit : suite.fits) (void)cellsByLoad(suite, fit);
     requireLoad(suite, draft.chartWhere);
@@ -176,7 +178,7 @@ Suite readSuite(files::TomlReader file, const fs::path& place, std::string id, b
     draft.read(file);
     Suite suite = multiplyOut(draft, true);
     if (file.has("quick")) {
-        // Always read, so that errors in it are found early.
+        // Always read, to find errors in it early.
         files::TomlReader table = file.table("quick");
         draft.read(table);
         table.finish();
@@ -206,7 +208,7 @@ class RoundShuffle {
     std::uint64_t draws_ = 0;
 };
 
-/// Cell indices by group.
+/// Indices of configurations by group.
 std::vector<std::vector<std::size_t>> listGroups(const Suite& suite) {
     std::map<std::size_t, std::vector<std::size_t>> members;
     const std::vector<std::size_t> groups = groupCells(suite);
@@ -220,7 +222,7 @@ std::vector<std::vector<std::size_t>> listGroups(const Suite& suite) {
 }  // namespace
 
 std::vector<SuiteFile> listSuites() {
-    std::map<std::string, SuiteFile> suites;  // the first of a name is the one that counts
+    std::map<std::string, SuiteFile> suites;  // the first suite with a name counts
     const auto add = [&suites](const fs::path& folder, const std::string& paper) {
         std::error_code error;
         for (const auto& entry : fs::directory_iterator(folder, error)) {
@@ -261,7 +263,7 @@ Suite parseSuite(std::string_view text, const std::string& name, bool quick) {
 }
 
 void requireDifferentValues(const MethodInfo& method, const std::string& name, const std::vector<std::string>& values) {
-    std::map<std::string, std::string> given;  // by what the run is told
+    std::map<std::string, std::string> given;  // by canonical value
     for (const std::string& value : values)
         if (const auto [first, isNew] = given.emplace(canonicalParameters(method, {{name, value}}).at(name), value);
             !isNew)
@@ -300,8 +302,8 @@ std::vector<PlannedRun> planRuns(const Suite& cellsOnly) {
     requireFewEnough("suite", static_cast<double>(cellsOnly.cells.size()) * cellsOnly.repetitions);
     if (cellsOnly.repetitions > 1 && !cellsOnly.cells.empty() && !cellsOnly.cells.front().spec.timed)
         throw InputError(
-            fmt::format("repetitions: got {} of a suite with times = false, allowed: 1, because they differ "
-                        "in times alone",
+            fmt::format("repetitions: got {} for a suite with times = false, allowed: 1, because repetitions "
+                        "differ only in their times",
                         cellsOnly.repetitions));
     const Suite suite = withBaselines(cellsOnly);
     std::vector<PlannedRun> plan;

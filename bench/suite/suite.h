@@ -19,24 +19,24 @@ namespace dustbench::bench {
 struct PlannedRun {
     RunSpec spec;
     std::string label;    ///< the parameters that the suite sets: `particles=1000 speed=20`
-    int repetitions = 0;  ///< of a cell with fewer than its suite; 0: the same number
-    std::string skip{};   ///< why the suite leaves it out: it is recorded as skipped; empty: it runs
+    int repetitions = 0;  ///< if fewer than those of the suite; 0: the same number
+    std::string skip{};   ///< why the suite excludes it; recorded as skipped. Empty: it runs
 };
 
-/// interleaved: every repetition is a round over all cells. Each round shuffles the groups of cells (cell_groups.h)
-/// with its own seed and runs the cells of a group one after the other, so that drift of the machine affects compared
-/// cells alike. batch: all repetitions of a cell, then the next cell.
+/// interleaved: every repetition is a round over all configurations. Each round shuffles the groups of configurations
+/// (cell_groups.h) with its own seed and runs those of a group one after the other, so that drift of the machine
+/// affects compared configurations equally. batch: all repetitions of a configuration, then the next configuration.
 enum class Order { interleaved, batch };
 inline constexpr Choices<Order> orders{{"interleaved", Order::interleaved}, {"batch", Order::batch}};
 
-/// What a suite's chart opens on. Empty: the frame rate, against what varies most.
+/// What the chart of a suite shows first. Empty: the frame rate against the parameter with the most values.
 struct ChartView {
     std::string column;  ///< of summary.csv
-    /// A parameter that the suite sets, or `size`, `scene`, `drive`, `seed`; empty: as the chart likes. One of
-    /// chartCosts: the page opens on this chart.
+    /// A parameter that the suite sets, or `size`, `scene`, `drive`, `seed`; empty: the chart chooses. One of
+    /// chartCosts: the report shows this chart first.
     std::string against;
 };
-/// What the error of pictures can be drawn against.
+/// The costs that charts show the error of pictures against.
 inline constexpr std::array<std::string_view, 6> chartCosts{"frame_ms_median", "method_ms_median", "memory_bytes",
                                                             "gpu_bytes",       "cpu_bytes",        "primitives_median"};
 
@@ -48,9 +48,9 @@ struct Suite {
     std::vector<PlannedRun> cells;  ///< one repetition each
     int repetitions = 1;
     Order order = Order::interleaved;
-    bool baseline = false;        ///< the null method runs in every world too (baselines.h)
+    bool baseline = false;        ///< the null method also runs in every world (baselines.h)
     double timeoutSeconds = 600;  ///< limit of one run
-    ResourceLimits limits;        ///< of the process of one run
+    ResourceLimits limits;        ///< limits of the process of one run
     double cooldownSeconds = 0;   ///< pause between two runs
     std::vector<PlannedComparison> comparisons;
     std::vector<PlannedFit> fits;
@@ -61,26 +61,26 @@ struct Suite {
 [[nodiscard]] Suite loadSuite(const std::string& idOrFile, bool quick);
 [[nodiscard]] Suite parseSuite(std::string_view text, const std::string& name, bool quick);
 
-/// A cell's run; repetitions count from 1. Only the first has metrics: pictures do not depend on the repetition.
+/// One run of a configuration; repetitions count from 1. Only the first has metrics: pictures do not depend on the
+/// repetition.
 [[nodiscard]] RunSpec inRepetition(RunSpec cell, int repetition);
-/// All runs in order, those of the null method among them (baselines.h).
+/// All runs in order, including those of the null method (baselines.h).
 [[nodiscard]] std::vector<PlannedRun> planRuns(const Suite& suite);
 
 /// One list of values per parameter, in order.
 using ParameterLists = std::vector<std::pair<std::string, std::vector<std::string>>>;
-/// Throws InputError for a value that is given twice, also in two forms, as 100 and 100.0: it would count as two
-/// independent runs.
+/// Throws InputError for a value that is given twice, also as 100 and 100.0: it would count as two independent runs.
 void requireDifferentValues(const MethodInfo& method, const std::string& name, const std::vector<std::string>& values);
 
-/// Throws InputError for more than files::limits::plannedRuns of them, and for values that are given twice.
-/// `base` with every combination of the values set and labelled; the last parameter changes fastest.
+/// `base` with every combination of the values set and labelled; the last parameter changes fastest. Throws InputError
+/// for more than files::limits::plannedRuns combinations, and for values that are given twice.
 [[nodiscard]] std::vector<PlannedRun> expandParameters(const RunSpec& base, const MethodInfo& method,
                                                        const ParameterLists& lists);
 
 struct SuiteFile {
     std::string id;
     std::filesystem::path file;
-    std::string paper;  ///< empty for suites of our own
+    std::string paper;  ///< empty for suites without a paper
 };
 /// Every suite in the data folders, sorted by id.
 [[nodiscard]] std::vector<SuiteFile> listSuites();

@@ -1,4 +1,4 @@
-// What varies between the cells of a suite: the world, which all methods share, and the settings of each method.
+// What varies between the configurations (cells) of a suite: the world, which all methods share, and method settings.
 #pragma once
 
 #include <functional>
@@ -16,10 +16,10 @@ struct Axis {
     std::function<std::string(const RunSpec&)> of;
 };
 
-/// Those of scene, drive, size and the world's parameters that vary between cells.
+/// Those of scene, drive, size and the world's parameters that vary between configurations.
 [[nodiscard]] std::vector<Axis> worldAxes(std::span<const PlannedRun* const> cells);
 
-/// Parameters of methods that vary between the cells of one method. Parameters that only differ between methods are
+/// Method parameters that vary between configurations of one method. Parameters that only differ between methods are
 /// part of the suite's setup.
 [[nodiscard]] std::vector<Axis> methodAxes(std::span<const PlannedRun* const> cells);
 

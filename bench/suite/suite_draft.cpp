@@ -45,7 +45,7 @@ std::vector<std::string> readValues(const SuiteDraft& draft, files::TomlReader& 
     }
 }
 
-/// Every value must be allowed by each of the methods; otherwise the error names this line.
+/// Checks that each method allows every value; errors name this line.
 void readParameters(const SuiteDraft& draft, files::TomlReader& table, const std::vector<std::string>& methodIds,
                     ParameterLists& lists) {
     for (const std::string& name : table.keys()) {
@@ -60,7 +60,7 @@ void readParameters(const SuiteDraft& draft, files::TomlReader& table, const std
     }
 }
 
-/// One seed or several; each seed is a different world.
+/// One seed or more; each seed is a different world.
 void readSeeds(files::TomlReader& table, std::vector<std::uint64_t>& seeds) {
     if (!table.has("seed")) return;
     seeds.clear();
@@ -78,8 +78,8 @@ void readSeeds(files::TomlReader& table, std::vector<std::uint64_t>& seeds) {
     if (seeds.empty()) throw InputError(table.where("seed") + "key 'seed': got an empty array, expected integers");
 }
 
-/// Each run counts once: what is given twice would count as two independent ones. `text` writes all forms of a name in
-/// one way.
+/// Throws for a name that is given twice, which would count as two independent runs. `text` gives a name's canonical
+/// form.
 template <typename Text>
 void requireOnce(files::TomlReader& table, const std::string& key, const std::vector<std::string>& names,
                  const Text& text) {
@@ -101,7 +101,7 @@ void readNames(files::TomlReader& table, const std::string& key, std::vector<std
     requireOnce(table, key, names, [](const std::string& name) { return name; });
 }
 
-/// Names of data, or paths of files.
+/// Names of data files, or paths.
 void readDataNames(const SuiteDraft& draft, files::TomlReader& table, const std::string& key,
                    std::string_view extension, std::vector<std::string>& names) {
     const std::string kind = key.substr(0, key.size() - 1);
@@ -122,8 +122,7 @@ void readVolumes(files::TomlReader& table, std::optional<VolumeSettings>& volume
     const auto read = [&](const std::string& key, const auto& apply) {
         if (!table.has(key)) return;
         if (!volumes)
-            throw InputError(table.where(key) + "key '" + key +
-                             "': got it without 'volumes', which says of which frames");
+            throw InputError(table.where(key) + "key '" + key + "': requires 'volumes', which selects the frames");
         try {
             apply(key);
         } catch (const InputError& error) {
@@ -157,7 +156,7 @@ void readJudging(files::TomlReader& table, std::optional<JudgingPlan>& judging) 
     }
     for (const char* key : {"metric_frames", "metric_pictures"})
         if (table.has(key) && !judging)
-            throw InputError(fmt::format("{}key '{}': got it without 'metrics = true'", table.where(key), key));
+            throw InputError(fmt::format("{}key '{}': requires 'metrics = true'", table.where(key), key));
     if (table.has("metric_pictures")) judging->keepsPictures = table.boolean("metric_pictures", true);
     if (!table.has("metric_frames")) return;
     const std::string text = table.text("metric_frames", "");
@@ -168,7 +167,7 @@ void readJudging(files::TomlReader& table, std::optional<JudgingPlan>& judging) 
     }
 }
 
-/// `[metric_reference.ID]`: the method's own parameters, one value each.
+/// `[metric_reference.ID]`: parameters of the method, one value each.
 void readFinerSettings(files::TomlReader& table, SuiteDraft& draft) {
     files::TomlReader perMethod = table.table("metric_reference");
     for (const std::string& id : perMethod.keys()) {
@@ -194,7 +193,7 @@ void readFinerSettings(files::TomlReader& table, SuiteDraft& draft) {
     perMethod.finish();
 }
 
-/// The cells to leave out. A value that no cell has is an error in the file.
+/// The configurations to exclude. A value that no configuration has is an error.
 void readExceptions(files::TomlReader& suite, SuiteDraft& draft) {
     draft.exceptions.clear();
     for (files::TomlReader& table : suite.tables("except")) {
@@ -225,17 +224,16 @@ void readExceptions(files::TomlReader& suite, SuiteDraft& draft) {
         exception.reason = table.text("reason", "");
         if (!exception.reason.empty() && exception.afterRepetition > 0)
             throw InputError(table.where("reason") +
-                             "key 'reason': got it with after_repetition, allowed: for cells that are left out wholly");
+                             "key 'reason': not allowed with 'after_repetition', which excludes some repetitions only");
         if (table.has("only")) exception.metricsOnly = table.choice("only", {"metrics"}) == "metrics";
         if (exception.metricsOnly && (!exception.reason.empty() || exception.afterRepetition > 0))
-            throw InputError(table.where("only") +
-                             "key 'only': got it with reason or after_repetition, allowed: without them");
+            throw InputError(table.where("only") + "key 'only': not allowed with 'reason' or 'after_repetition'");
         table.finish();
         draft.exceptions.push_back(std::move(exception));
     }
 }
 
-/// `gaps`, or `gaps against speed`. Whether the suite has such a load is known once it is read whole.
+/// `gaps`, or `gaps against speed`. The load is checked when the whole suite has been read.
 ChartView readChart(files::TomlReader& table) {
     std::istringstream words(table.text("chart"));
     ChartView chart;

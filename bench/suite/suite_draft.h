@@ -1,4 +1,4 @@
-// The contents of a suite file, before the combinations are expanded.
+// The contents of a suite file before its combinations are expanded.
 #pragma once
 
 #include <filesystem>
@@ -13,18 +13,18 @@
 
 namespace dustbench::bench {
 
-/// An `[[except]]` table: excludes cells that match one value of every non-empty list.
+/// An `[[except]]` table: excludes configurations that match one value of every non-empty list.
 struct Exception {
     std::vector<std::string> methods, scenes, drives, sizes;
     ParameterLists parameters;
     int afterRepetition = 0;  ///< repetitions up to this one are kept
-    std::string reason;       ///< recorded with the cells, as skipped; empty: they do not appear
-    bool metricsOnly = false;  ///< the cells run, but their pictures are not compared
+    std::string reason;       ///< recorded with the skipped runs; empty: they do not appear
+    bool metricsOnly = false;  ///< the runs stay, but their pictures are not compared
     std::string where;        ///< `file:line: `, for messages
 };
 
 struct SuiteDraft {
-    std::filesystem::path file;  ///< that is read; empty: none, paths are as they are
+    std::filesystem::path file;  ///< the file being read; empty: none, paths stay as given
     std::vector<std::string> methods{"all"};
     std::vector<std::string> scenes{"plain"};
     std::vector<std::string> drives{""};
@@ -34,13 +34,13 @@ struct SuiteDraft {
     Suite suite;
     ParameterLists parameters;
     std::vector<std::pair<std::string, ParameterLists>> methodParameters;
-    std::map<std::string, ParameterTexts> finerSettings;  ///< by method: the settings of its reference
+    std::map<std::string, ParameterTexts> finerSettings;  ///< by method: settings of its reference
     std::vector<Exception> exceptions;
     std::string chartWhere;        ///< `file:line: ` of `chart`, for messages
-    std::string timesWhere;        ///< the same of `times`
-    std::optional<bool> baseline;  ///< empty: where times are compared, fitted or repeated
+    std::string timesWhere;        ///< the same for `times`
+    std::optional<bool> baseline;  ///< empty: if times are compared, fitted or repeated
 
-    /// Reads a table on top of the present values: a whole file, or its `[quick]`. Throws InputError with file and
+    /// Reads a table over the current values: a whole file, or its `[quick]`. Throws InputError with file and
     /// line.
     void read(files::TomlReader& table);
 };

@@ -1,6 +1,6 @@
 // Fits the growth of costs with a load, for a suite's `[[fit]]` tables, from its stored runs.
 //
-// All cells that differ only in the load form one curve, ms = a + b·N^k; each valid run is a point of it.
+// All configurations that differ only in the load form one curve, ms = a + b·N^k; each valid run is a point of it.
 #pragma once
 
 #include <string>
@@ -18,13 +18,13 @@ struct LoadedCells {
     std::vector<const PlannedRun*> cells;
 };
 
-/// Points into the suite. Throws InputError if no cell has a numeric value of the parameter.
+/// Points into the suite. Throws InputError if no configuration has a numeric value of the parameter.
 [[nodiscard]] std::vector<LoadedCells> cellsByLoad(const Suite& suite, const PlannedFit& fit);
 
 struct FittedCurve {
     std::string column, label;
-    CostFit fit;              ///< of valid runs
-    std::size_t invalid = 0;  ///< runs left out as invalid
+    CostFit fit;              ///< from valid runs
+    std::size_t invalid = 0;  ///< number of invalid runs, which are left out
 };
 
 struct FitResult {
@@ -34,7 +34,7 @@ struct FitResult {
 
 [[nodiscard]] std::vector<FitResult> fitSuite(const Suite& suite, const StoredRuns& runs);
 
-/// A row for each curve: a, b and k with their intervals, loads and runs, or the reason if there is no fit.
+/// A row for each curve: a, b and k with their intervals, loads and runs; without a fit, the reason.
 [[nodiscard]] TextRows tabulate(const FitResult& result);
 
 }  // namespace dustbench::bench

@@ -42,7 +42,7 @@ std::string threeDigitsIfSmall(double value) {
     return value != 0 && std::abs(value) < 0.0995 ? fmt::format("{:.3g}", value) : fourDigits(value);
 }
 
-/// Metrics of the first repetition, which is the judged one.
+/// Metrics of the first repetition, the only one that has them.
 Row metricsOf(const std::vector<const StoredRun*>& done) {
     Row row;
     for (const MetricInfo& metric : metricInfos()) {
@@ -64,7 +64,7 @@ Row joined(Row row, Row more) {
     return row;
 }
 
-/// The cells by world, in order of first appearance in the suite.
+/// The configurations by world, in order of first appearance in the suite.
 std::vector<std::pair<std::string, std::vector<const PlannedRun*>>> groupByWorld(
     const std::vector<const PlannedRun*>& cells, const std::vector<Axis>& world) {
     std::vector<std::pair<std::string, std::vector<const PlannedRun*>>> groups;
@@ -77,7 +77,7 @@ std::vector<std::pair<std::string, std::vector<const PlannedRun*>>> groupByWorld
     return groups;
 }
 
-/// `numbersOf` returns the cells under `numberHeader` for a cell's runs.
+/// `numbersOf` returns the table cells under `numberHeader` for the runs of a configuration.
 template <typename NumbersOf>
 TextRows tabulateRuns(const Suite& suite, const StoredRuns& runs, const Row& numberHeader, const NumbersOf& numbersOf) {
     TextRows table;

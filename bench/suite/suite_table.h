@@ -1,6 +1,6 @@
-// A suite's results as console tables: FPS and the stages of a frame, medians over the repetitions of each cell.
+// A suite's results as console tables: FPS and stages, medians over the repetitions of each configuration.
 //
-// Cells with the same world are adjacent, so that their methods can be compared.
+// Configurations in the same world are adjacent, so that their methods can be compared.
 // Units: ms, and frames per second.
 #pragma once
 
@@ -17,32 +17,32 @@ struct TextRows {
     std::vector<std::vector<std::string>> rows;  ///< each as long as the header
 };
 
-/// FPS (median, minimum and maximum run), frame time, `own` (the method's own time, where the null method runs beside)
-/// and stages. If the suite has one method in one setting, columns of
-/// each row show what varies. Otherwise a row with only the world's label, `particles=500 speed=20`, heads the rows of
-/// the methods, which are labelled with their varying settings: `octree_search layout=morton`. Rows with incomplete
-/// runs are marked: `billboard (4 of 6 runs)`, and those with invalid runs: `billboard (2 of 6 invalid)`.
+/// FPS (median, minimum and maximum run), frame time, `own` (the method's own time, if the null method ran too) and
+/// stages. If the suite has one method with one setting, columns show what varies. Otherwise a row with only the
+/// world's label, `particles=500 speed=20`, precedes the rows of the methods, which are labelled with their varying
+/// settings: `octree_search layout=morton`. Incomplete rows are marked, `billboard (4 of 6 runs)`, and so are rows with
+/// invalid runs, `billboard (2 of 6 invalid)`.
 [[nodiscard]] TextRows tabulate(const Suite& suite, const StoredRuns& runs);
 
-/// True if any run that is done was timed, or none is done.
+/// True if a run that is done was timed, or if no run is done.
 [[nodiscard]] bool isTimed(const Suite& suite, const StoredRuns& runs);
 
-/// The same rows for runs that are not timed: the chart's quantity, particles, primitives and bytes, medians over the
+/// The same rows for runs without times: the chart's quantity, particles, primitives and bytes, as medians over the
 /// runs.
 [[nodiscard]] TextRows tabulateCounts(const Suite& suite, const StoredRuns& runs);
 
-/// The same rows with the metrics of judged runs (reports/METRICS.md); no rows if none were judged.
+/// The same rows with metrics (reports/METRICS.md); no rows if no run has metrics.
 [[nodiscard]] TextRows tabulateMetrics(const Suite& suite, const StoredRuns& runs);
 
-/// The runs of a cell that belongs to no suite.
+/// The runs of a configuration that does not belong to a suite.
 struct MeasuredCell {
     std::string label;
     std::vector<const StoredRun*> done;
 };
-/// FPS, frame time and stages of such cells, each with its number of runs.
+/// FPS, frame time and stages of such configurations, each with its number of runs.
 [[nodiscard]] TextRows tabulate(const std::vector<MeasuredCell>& cells);
 
-/// Four significant digits, at most three after the point: `0.047`, `12.35`, `123.5`; empty for NaN.
+/// Four significant digits, at most three decimals: `0.047`, `12.35`, `123.5`; empty for NaN.
 [[nodiscard]] std::string fourDigits(double value);
 
 }  // namespace dustbench::bench

@@ -100,13 +100,13 @@ TEST(SuiteTable, InvalidRunsAreMarkedWhereTheirNumbersStand) {
     suite.cells.push_back(cellOf("haze", "100", {}));
     StoredRuns runs;
     for (const int repetition : {1, 2}) store(runs, suite.cells[0], repetition, "10");
-    runs.begin()->second.cells["invalid"] = "particles_median is 68, asked for: 100";
+    runs.begin()->second.cells["invalid"] = "particles_median is 68, requested: 100";
     EXPECT_EQ(tabulate(suite, runs).rows.at(0).at(0), "haze (1 of 2 invalid)");
     const std::vector<const StoredRun*> done = doneRuns(suite.cells[0], 2, runs);
     EXPECT_EQ(tabulate({MeasuredCell{"haze", done}}).rows.at(0).at(0), "haze (1 of 2 invalid)");
     EXPECT_EQ(
         saysInvalid(done),
-        "1 of 2 runs is invalid and left out of claims, fits and verdicts: particles_median is 68, asked for: 100");
+        "1 of 2 runs is invalid and left out of claims, fits and verdicts: particles_median is 68, requested: 100");
     EXPECT_EQ(saysInvalid({done.back()}), "");
 }
 
@@ -121,8 +121,8 @@ TEST(SuiteFit, InvalidRunsAreNoPointsAndAreCounted) {
             store(runs, suite.cells.back(), repetition, "10");
             StoredRun& run = runs[runId(inRepetition(suite.cells.back().spec, repetition))];
             run.cells["frame_ms_median"] = std::to_string(5 + 0.01 * particles);
-            if (repetition == 2) run.cells["frame_ms_median"] = "500";  // of another load than was asked for
-            if (repetition == 2) run.cells["invalid"] = "particles_median is 483, asked for: 100";
+            if (repetition == 2) run.cells["frame_ms_median"] = "500";  // with another load than requested
+            if (repetition == 2) run.cells["invalid"] = "particles_median is 483, requested: 100";
         }
     }
     const FitResult result = fitSuite(suite, runs).at(0);

@@ -184,8 +184,8 @@ TEST(Suite, ExceptionsLeaveOutTheCellsThatHaveAllTheirValues) {
     EXPECT_THAT(messageOf("[[except]]\nmethods = [\"null_methd\"]"),
                 AllOf(HasSubstr("s.toml:2"), HasSubstr("'null_method'")));
     EXPECT_THAT(messageOf("\n[[except]]\n[except.parameters]\nwrok = 1"),
-                AllOf(HasSubstr("s.toml:2"), HasSubstr("leaves nothing out")));
-    EXPECT_THAT(messageOf("[[except]]\n[except.parameters]\nspeed = 0"), HasSubstr("nothing is left"));
+                AllOf(HasSubstr("s.toml:2"), HasSubstr("except: matches no configuration")));
+    EXPECT_THAT(messageOf("[[except]]\n[except.parameters]\nspeed = 0"), HasSubstr("exclude every configuration"));
 }
 
 TEST(Suite, ExceptionsWithAReasonStayInThePlanAsSkipped) {
@@ -200,7 +200,7 @@ TEST(Suite, ExceptionsWithAReasonStayInThePlanAsSkipped) {
     }
     EXPECT_EQ(others, 3);
     EXPECT_EQ(skipped, 1);
-    EXPECT_THAT(messageOf("[[except]]\nreason = \"all\"\n"), HasSubstr("nothing is left"));
+    EXPECT_THAT(messageOf("[[except]]\nreason = \"all\"\n"), HasSubstr("exclude every configuration"));
     EXPECT_THAT(messageOf("[[except]]\nafter_repetition = 1\nreason = \"late\"\n"),
                 AllOf(HasSubstr("s.toml:3"), HasSubstr("after_repetition")));
 }
@@ -255,7 +255,7 @@ TEST(Suite, EverySuiteOfTheProjectCanBePlanned) {
             EXPECT_FALSE(planRuns(suite).empty()) << file.id;
             EXPECT_FALSE(suite.title.empty()) << file.id;
             if (suite.comparisons.empty()) continue;
-            EXPECT_GE(suite.repetitions, static_cast<int>(minimumPairs)) << file.id << ": could resolve nothing";
+            EXPECT_GE(suite.repetitions, static_cast<int>(minimumPairs)) << file.id << ": too few for a verdict";
             EXPECT_EQ(suite.order, Order::interleaved) << file.id;
         }
 }
@@ -276,7 +276,7 @@ TEST(Suite, WithoutTimesRefusesWhatIsAboutThem) {
     EXPECT_THAT(messageOf(chart + "methods = [\"billboard\"]\n[quick]\ntimes = false\nrepetitions = 2\n"),
                 HasSubstr("s.toml:4"));
     Suite repeated = suite;
-    repeated.repetitions = 3;  // by the command line
+    repeated.repetitions = 3;  // as set by the command line
     EXPECT_THROW((void)planRuns(repeated), InputError);
 }
 
@@ -340,7 +340,7 @@ TEST(Suite, SaysWhereVolumesAreAskedForWrongly) {
         {"volumes = \"0\"\nresolution = 4096", "2048"},
         {"volumes = \"0\"\nregion = \"0,0,0\"", "3 numbers"},
         {"volumes = \"0\"\nvdb_precision = \"double\"", "half|float"},
-        {"formats = [\"vti\"]", "without 'volumes'"},
+        {"formats = [\"vti\"]", "requires 'volumes'"},
     };
     for (const auto& [lines, expected] : mistakes)
         EXPECT_THAT(messageOf(lines), AllOf(HasSubstr("s.toml:"), HasSubstr(expected))) << lines;
@@ -374,7 +374,7 @@ soft = true
 }
 
 TEST(Suite, SaysWhereMetricsAreAskedForWrongly) {
-    EXPECT_THAT(messageOf("metric_frames = \"0:40:8\""), AllOf(HasSubstr("s.toml:1"), HasSubstr("without 'metrics")));
+    EXPECT_THAT(messageOf("metric_frames = \"0:40:8\""), AllOf(HasSubstr("s.toml:1"), HasSubstr("requires 'metrics")));
     EXPECT_THAT(messageOf("frames = 20\nmetrics = true\nmetric_frames = \"0:40:8\""),
                 HasSubstr("beyond the run's end"));
     EXPECT_THAT(messageOf("metrics = true\nmetric_frames = \"0:4\""), HasSubstr("got 4 moments"));

@@ -43,18 +43,18 @@ std::optional<double> logRatio(const CellPair& pair, int repetition, const std::
     return isRate(column) ? -difference : difference;
 }
 
-/// If both runs are done but on different machines, the difference; else empty.
+/// The difference between the machines if both runs are done on different ones; else empty.
 std::string otherMachine(const CellPair& pair, int repetition, const StoredRuns& runs) {
     const StoredRun* of = doneRun(*pair.of, repetition, runs);
     const StoredRun* with = doneRun(*pair.with, repetition, runs);
     if (!of || !with) return {};
     const auto found = differences(*of, *with, machineFields());
     if (found.empty()) return {};
-    return fmt::format("pairs of different machines were left out ({}: '{}' and '{}')", found.front().field,
+    return fmt::format("pairs from different machines were left out ({}: '{}' and '{}')", found.front().field,
                        found.front().first, found.front().second);
 }
 
-/// If both runs are done and one of them is invalid, why; else empty.
+/// Why a run is invalid if both runs are done; empty if both are valid.
 std::string invalidIn(const CellPair& pair, int repetition, const StoredRuns& runs) {
     const StoredRun* of = doneRun(*pair.of, repetition, runs);
     const StoredRun* with = doneRun(*pair.with, repetition, runs);
@@ -63,7 +63,7 @@ std::string invalidIn(const CellPair& pair, int repetition, const StoredRuns& ru
     return why.empty() ? whyInvalid(*with) : why;
 }
 
-/// What was left out of a verdict, as a clause: pairs of different machines, and invalid ones with their count.
+/// The pairs left out of a verdict, as a clause: those from different machines, and invalid ones with their count.
 struct LeftOut {
     std::string machines, whyInvalid;
     std::size_t invalid = 0;
@@ -154,7 +154,7 @@ MatchedCells matchCells(const Suite& suite, const PlannedComparison& comparison)
     for (const auto& [side, cells] : {std::pair{&comparison.of, &ofCells}, std::pair{&comparison.with, &withCells}})
         if (cells->empty())
             throw InputError(
-                fmt::format("{}compare: got '{}', but no run of the suite is that", comparison.where, side->label));
+                fmt::format("{}compare: got '{}', but no run of the suite matches it", comparison.where, side->label));
     const auto ofSettings = methodAxes(ofCells), withSettings = methodAxes(withCells);
     const auto pinned = [&](const std::string& name) {
         return comparison.of.pinned.contains(name) || comparison.with.pinned.contains(name);
@@ -174,10 +174,10 @@ MatchedCells matchCells(const Suite& suite, const PlannedComparison& comparison)
         for (const PlannedRun* with : withCells)
             if (of != with && showTheSame(of->spec, with->spec)) matched.pairs.push_back({of, with, {}});
     if (matched.pairs.empty())
-        throw InputError(fmt::format("{}compare: got '{}' and '{}', which have no two different runs in the same world",
+        throw InputError(fmt::format("{}compare: got '{}' and '{}', which have no different runs in the same world",
                                      comparison.where, comparison.of.label, comparison.with.label));
 
-    // A parameter that a side does not vary is constant in its cells, so an axis is taken from the side that varies it.
+    // A parameter that a side does not vary is constant there, so the axis comes from the side that varies it.
     const auto addAxes = [&](const std::vector<Axis>& axes, const PlannedRun* CellPair::*side) {
         for (const Axis& axis : axes) {
             const auto valueOf = [&](const CellPair& pair) { return axis.of((pair.*side)->spec); };

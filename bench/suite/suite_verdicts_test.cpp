@@ -29,7 +29,8 @@ with = "billboard sort=radix"
 columns = ["sort_ms_median", "fps_avg"]
 )";
 
-/// Runs of every cell: `timeOf` gives the sort time in ms by cell and repetition, empty for a missing run.
+/// Runs of every configuration: `timeOf` gives the sort time in ms by configuration and repetition, empty for a missing
+/// run.
 template <typename TimeOf>
 StoredRuns runsOf(const Suite& suite, const TimeOf& timeOf) {
     StoredRuns runs;
@@ -96,7 +97,7 @@ TEST(SuiteComparison, RunsOfDifferentMachinesAreNoPair) {
         ++touched;
         EXPECT_EQ(cell.result.pairs, 5u);
         EXPECT_EQ(cell.result.verdict, Verdict::unresolved);
-        EXPECT_THAT(cell.reason, HasSubstr("5 paired runs, 6 are needed; pairs of different machines were left out"));
+        EXPECT_THAT(cell.reason, HasSubstr("5 paired runs, 6 are needed; pairs from different machines were left out"));
     }
     EXPECT_EQ(touched, 1);
     EXPECT_EQ(column.overall.result.pairs, 5u);
@@ -124,7 +125,7 @@ TEST(SuiteComparison, AnInvalidRunIsNoPairAndIsCounted) {
 }
 
 TEST(SuiteComparison, ASettingThatOneSideAloneVariesIsComparedForEachOfItsValues) {
-    // As methods do that lack each other's parameters: the one is at `texture` all the time.
+    // Like methods that lack each other's parameters: one side always has `texture`.
     Suite suite = parseSuite(twoSorts, "s", false);
     std::erase_if(suite.cells, [](const PlannedRun& cell) {
         return cell.spec.parameters.at("sort") == "radix" && cell.spec.parameters.at("puff") == "gaussian";
@@ -163,7 +164,7 @@ TEST(SuiteComparison, FindsTheRatioWithWhichTheTimesWereMade) {
 }
 
 TEST(SuiteComparison, AllTogetherIsTheGeometricMeanOverCellsAndItsScatterThatOfRounds) {
-    // Ratios 0.5 and 2 in every round: opposed and certain in the cells, no scatter at all together.
+    // Ratios 0.5 and 2 in every round: clear and opposite per configuration, no scatter for both together.
     const Suite suite = parseSuite(twoSorts, "s", false);
     const auto results = suiteVerdicts(suite, runsOf(suite, [](const ParameterTexts& parameters, int repetition) {
                                            const double ratio = parameters.at("particles") == "100" ? 0.5 : 2;
@@ -279,7 +280,7 @@ TEST(SuiteComparison, MistakesNameFileLineAndWhatIsNear) {
         {of + columns, "'compare.with' is missing"},
         {of + with + columns + "colums = 3\n", "'columns'"},
         {"of = \"billboard sort=quicksort\"\n" + with + columns, "s.toml:4: compare: got 'billboard sort=quicksort'"},
-        {"of = \"billboard\"\nwith = \"billboard\"\n" + columns, "no two different runs"},
+        {"of = \"billboard\"\nwith = \"billboard\"\n" + columns, "no different runs"},
     };
     for (const auto& [text, expected] : mistakes) EXPECT_THAT(refusalOf(text, sorts), HasSubstr(expected)) << text;
     try {

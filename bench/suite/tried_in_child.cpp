@@ -15,7 +15,7 @@ namespace {
 
 constexpr unsigned patienceSeconds = 60;
 
-/// A file without a name. Owns: its descriptor.
+/// A temporary file without a name. Owns: its descriptor.
 class Note {
  public:
     explicit Note(const char* name) : descriptor_(memfd_create(name, MFD_CLOEXEC)) {

@@ -33,7 +33,7 @@ std::optional<double> number(std::string_view text) {
     return value;
 }
 
-/// 0.1 + 2·0.1 as 0.3: rounds to twelve digits.
+/// Rounds to twelve digits, so that 0.1 + 2·0.1 is written as 0.3.
 std::string roundedText(double value) {
     char buffer[64];
     const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 12);
@@ -49,10 +49,10 @@ std::vector<std::string> range(std::string_view what, std::string_view text) {
     std::vector<double> numbers;
     for (const std::string_view part : parts)
         if (const auto value = number(part)) numbers.push_back(*value);
-    if (parts.size() != 3 || numbers.size() != 3) throw refuse("is not three numbers");
+    if (parts.size() != 3 || numbers.size() != 3) throw refuse("does not consist of three numbers");
     const double from = numbers[0], to = numbers[1], step = numbers[2];
     const double steps = (to - from) / step;
-    if (step == 0 || steps < 0) throw refuse("never arrives");
+    if (step == 0 || steps < 0) throw refuse("never reaches its end");
     if (steps >= maximumValues) throw refuse("has more than 10000 values");
 
     std::vector<std::string> values;
@@ -70,11 +70,11 @@ std::vector<std::string> expandValues(std::string_view what, std::string_view te
     if (parts.size() > 1 &&
         !std::ranges::all_of(parts, [](std::string_view part) { return number(part).has_value(); }) &&
         std::filesystem::is_regular_file(text, error))
-        return {std::string(text)};  // a file whose name has a comma
+        return {std::string(text)};  // a file whose name contains a comma
     for (const std::string_view part : parts) {
         if (part.empty())
             throw InputError(std::string(what) + ": got '" + std::string(text) + "', expected " +
-                             (text.empty() ? "a value" : "a value on either side of ','"));
+                             (text.empty() ? "a value" : "a value on each side of ','"));
         const std::string_view first = part.substr(0, part.find(':'));
         if (first.size() < part.size() && number(first)) {
             for (std::string& value : range(what, part)) values.push_back(std::move(value));
@@ -83,7 +83,7 @@ std::vector<std::string> expandValues(std::string_view what, std::string_view te
         }
         if (values.size() > static_cast<std::size_t>(files::limits::plannedRuns))
             throw InputError(std::string(what) + ": got more than " + std::to_string(files::limits::plannedRuns) +
-                             " values, which is the limit of a command's planned runs");
+                             " values, the limit of planned runs of a command");
     }
     return values;
 }

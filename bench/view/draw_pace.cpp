@@ -10,9 +10,10 @@ namespace dustbench::bench {
 namespace {
 
 constexpr double limitMs = 1000 / pacedFramesPerSecond;
-/// A smaller size is to bring the frame below this share of the limit, a larger one must be predicted below the other.
+/// A smaller size must bring the frame below the first share of the limit, a larger one must be predicted to stay below
+/// the second.
 constexpr double loweredTo = 0.9, raisedBelow = 0.8;
-/// A smaller size is worth its blur only if it takes this share off the frame.
+/// A smaller size is worth its blur only if it shortens the frame by this share.
 constexpr double leastGain = 0.1;
 
 }  // namespace
@@ -42,7 +43,7 @@ double DrawPace::predictedMs(const PacedFrame& frame, std::size_t step) const {
     return frame.wholeMs - frame.drawMs + frame.drawMs * scale * scale;
 }
 
-/// The largest that keeps the pace, else the smallest; this one if little would be gained.
+/// The largest size that keeps the pace, or the smallest if none does; the current one if little would be gained.
 std::size_t DrawPace::smallerStep(const PacedFrame& frame) const {
     std::size_t step = step_;
     while (step + 1 < shares.size() && predictedMs(frame, step) > loweredTo * limitMs) ++step;

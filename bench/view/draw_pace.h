@@ -1,11 +1,12 @@
-// How large the window draws its halves to keep 15 frames per second: a function of the times of its frames alone.
+// Chooses how large the window draws its halves to keep 15 frames per second, from the times of its frames alone.
 //
-// Drawing is taken to cost in proportion to its pixels, and the rest of a frame to cost the same at any size:
+// The model: the cost of drawing is proportional to the number of pixels, and the rest of a frame costs the same at any
+// size:
 //
 //     T(s') = T − D + D·(s'/s)²
 //
-// What part of D does not shrink makes the prediction too low for a smaller size and too high for a larger one. So a
-// size that was left for being too slow is not taken again as long as the costs stay as they are.
+// If a part of D does not shrink, the prediction is too low for a smaller size and too high for a larger one. So a size
+// that was too slow is not chosen again while the costs stay the same.
 // Units: milliseconds; sizes are shares of width and height. Threads: pure.
 #pragma once
 
@@ -28,10 +29,10 @@ struct PacedFrame {
 class DrawPace {
  public:
     static constexpr std::array<double, 7> shares{1, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2};
-    /// Frames of which medians are taken before the size gets smaller, or larger: a slow one alone changes nothing.
+    /// Number of frames whose median makes the size smaller, or larger: a single slow frame changes nothing.
     static constexpr std::size_t framesToLower = 8, framesToRaise = 30;
 
-    /// A frame that was drawn at share(). Times that are no times are ignored.
+    /// Adds a frame that was drawn at share(). Invalid times are ignored.
     void note(const PacedFrame& frame);
     [[nodiscard]] double share() const { return shares[step_]; }
 
@@ -42,7 +43,7 @@ class DrawPace {
     void go(std::size_t step);
 
     std::size_t step_ = 0;
-    std::vector<PacedFrame> frames_;  ///< of this size, the last `framesToRaise`
+    std::vector<PacedFrame> frames_;  ///< at this size, at most the last `framesToRaise`
 };
 
 /// The share of a size, at least a pixel each way.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double limitMs = 1000 / pacedFramesPerSecond;
 
-/// What a frame costs at a share of the size: T = fixed + perFrame + perPixel·s², of which the last two are drawing.
+/// The cost of a frame at a share of the size: T = fixed + perFrame + perPixel·s². The last two are drawing.
 struct Costs {
     double fixed, perFrame, perPixel;
     [[nodiscard]] PacedFrame at(double share) const {
@@ -84,7 +84,7 @@ TEST(DrawPace, NeverSwingsBetweenTwoSizes) {
     }
 }
 
-/// Frame times that vary by a sixth either way, around a limit that no size meets by much.
+/// Frame times vary by a sixth in both directions, around a limit that no size clearly meets.
 TEST(DrawPace, IsSteadyUnderNoise) {
     for (const unsigned seed : {1u, 2u, 3u}) {
         std::mt19937 random(seed);

@@ -15,10 +15,10 @@ pictures::Image opaque(pictures::Image image) {
 }  // namespace
 
 ExactHalf::ExactHalf(gpu::Device& device, int width, int height)
-    : display_(gpu::Texture::make2D(device, "exact picture", gpu::Format::rgba8, width, height)),
-      scene_(gpu::Texture::make2D(device, "scene of the exact picture", gpu::Format::rgba32F, width, height)),
-      layer_(gpu::Texture::make2D(device, "exact layer", gpu::Format::rgba32F, width, height)),
-      depth_(gpu::Texture::make2D(device, "depth of the exact picture", gpu::Format::r32F, width, height)) {}
+    : display_(gpu::Texture::make2D(device, "ground truth", gpu::Format::rgba8, width, height)),
+      scene_(gpu::Texture::make2D(device, "scene of the ground truth", gpu::Format::rgba32F, width, height)),
+      layer_(gpu::Texture::make2D(device, "layer of the ground truth", gpu::Format::rgba32F, width, height)),
+      depth_(gpu::Texture::make2D(device, "depth of the ground truth", gpu::Format::r32F, width, height)) {}
 
 void ExactHalf::draw(const DrawnMoment& drawn, const scene::Scene& scene, const scene::View& view, const Puffs& dust,
                      std::string whyNotJudged) {
@@ -29,7 +29,7 @@ void ExactHalf::draw(const DrawnMoment& drawn, const scene::Scene& scene, const 
         {}, opaque(pictures::over(drawn.layer, drawn.scene)), opaque(pictures::over(exact.layer, drawn.scene)), {}};
     try {
         if (whyNotJudged_.empty()) judged_ = comparePictures(drawn, exact);
-    } catch (const InputError& error) {  // a picture with values that are not finite
+    } catch (const InputError& error) {  // the picture contains values that are not finite
         whyNotJudged_ = error.what();
     }
     upload(judged_.reference, display_);

@@ -1,6 +1,6 @@
-// The exact picture of one moment, as textures beside those of a method, and the judge's numbers for that method.
+// The ground truth of one moment as textures, and the metrics of a method compared with it.
 //
-// Drawn by bench/reference, as the metrics of a run are (bench/reference/judge): it takes from a few milliseconds to
+// bench/reference draws it, as for the metrics of a run (bench/reference/judge). That takes from a few milliseconds to
 // seconds. Owns: its textures. Threads: the device's, inside the oneTBB arena to be used.
 #pragma once
 
@@ -17,17 +17,17 @@ class ExactHalf {
  public:
     ExactHalf(gpu::Device& device, int width, int height);
 
-    /// Draws the dust, given in its colours without light, before the method's scene and compares the method's picture
-    /// with it. `whyNotJudged`: why numbers would say nothing; empty: they are computed.
+    /// Draws the dust, given in its colours without light, in front of the method's scene and compares the method's
+    /// picture with it. `whyNotJudged`: why metrics would be meaningless; if empty, they are computed.
     void draw(const DrawnMoment& drawn, const scene::Scene& scene, const scene::View& view, const Puffs& dust,
               std::string whyNotJudged);
 
     [[nodiscard]] HalfTextures textures() const { return {display_, scene_, layer_, depth_}; }
-    /// The exact picture, and the method's: linear light, opaque.
+    /// The ground truth and the method's picture: linear light, opaque.
     [[nodiscard]] const JudgedMoment& judged() const { return judged_; }
     /// Why `judged` has no metrics; empty if it has.
     [[nodiscard]] const std::string& whyNotJudged() const { return whyNotJudged_; }
-    /// Of the last draw(), numbers included.
+    /// Duration of the last draw(), including metrics.
     [[nodiscard]] double seconds() const { return seconds_; }
 
  private:

@@ -1,4 +1,4 @@
-// The exact picture as half B, and its numbers, held against those of a judged run.
+// The ground truth as half B, and its metrics, compared with those of a run with metrics.
 #include "bench/view/exact_half.h"
 
 #include <fmt/format.h>
@@ -71,7 +71,7 @@ TEST(ExactHalf, GivesTheNumbersAndThePictureOfAJudgedRun) {
         ASSERT_TRUE(value) << column;
         EXPECT_NEAR(*value, std::stod(std::string(table.cell(row, column))), 1e-6 * std::abs(*value)) << column;
     }
-    EXPECT_GT(*shown.flipMask, 1e-3);  // hard billboards are not exact
+    EXPECT_GT(*shown.flipMask, 1e-3);  // hard billboards differ from the ground truth
     const pictures::Image saved = pictures::readImage(folder.path() / "images" / "f000004_reference.exr");
     ASSERT_EQ(saved.pixels.size(), reference.pixels.size());
     for (std::size_t i = 0; i < saved.pixels.size(); ++i)
@@ -111,7 +111,7 @@ TEST_F(ExactInViewer, IsDrawnAtRestAndNeverOfAnotherMomentThanA) {
     EXPECT_FALSE(viewer.session().isJudged());
 }
 
-/// While the world moves, half B is the truth as a method.
+/// While the world moves, a method draws the ground truth in half B.
 TEST_F(ExactInViewer, IsDrawnLiveByTheTruthAsAMethodAndIsTheJudgesPictureTo1e5) {
     if (!isBuilt(liveTruth) || !isBuilt("billboard")) GTEST_SKIP() << "no truth as a method, or no billboards";
     ViewState state = small("billboard");
@@ -136,7 +136,7 @@ TEST_F(ExactInViewer, IsDrawnLiveByTheTruthAsAMethodAndIsTheJudgesPictureTo1e5) 
                 most = std::max(most, std::abs(static_cast<double>(a.pixels[i][channel] - exact.pixels[i][channel])));
             }
     }
-    EXPECT_GT(most, 1e-4);  // there is dust, and billboards are not exact
+    EXPECT_GT(most, 1e-4);  // there is dust, and billboards differ from the ground truth
     session.step();
     session.draw({32, 24});
     EXPECT_EQ(session.picture(Half::b).width(), 32);

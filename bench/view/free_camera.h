@@ -1,4 +1,4 @@
-// A camera that is moved by hand. Pure functions.
+// Moves a camera by hand. Pure functions.
 //
 // Units: m, radians. Frame: world, +Y up.
 #pragma once
@@ -10,12 +10,12 @@ namespace dustbench::bench {
 /// The pose of a camera as a key.
 [[nodiscard]] CameraKey keyOf(const scene::Camera& camera, double seconds);
 
-/// Turned about its target: by `turn` about the vertical, counter-clockwise seen from above, and by `rise` upwards; it
-/// stops short of the vertical.
+/// Turns the eye about the target: by `turn` about the vertical, counter-clockwise seen from above, and by `rise`
+/// upwards, but never to the vertical.
 [[nodiscard]] CameraKey turned(const CameraKey& key, double turn, double rise);
-/// `factor` times as far from its target, at least 0.2 m.
+/// Moves the eye to `factor` times its distance from the target, at least 0.2 m.
 [[nodiscard]] CameraKey dollied(const CameraKey& key, double factor);
-/// Eye and target moved by `right` and `up` in the plane of the picture.
+/// Moves eye and target by `right` and `up` in the plane of the picture.
 [[nodiscard]] CameraKey shifted(const CameraKey& key, double right, double up);
 
 }  // namespace dustbench::bench

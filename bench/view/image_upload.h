@@ -1,4 +1,4 @@
-// Images computed on the CPU as textures; rows from the top become rows from the bottom.
+// Uploads images computed on the CPU to textures. Rows from the top become rows from the bottom.
 //
 // Threads: the device's.
 #pragma once
@@ -10,9 +10,9 @@
 
 namespace dustbench::bench {
 
-/// Into a texture of the image's size: as it is into rgba32F, display-encoded and opaque into rgba8.
+/// Uploads into a texture of the image's size: unchanged into rgba32F, display-encoded and opaque into rgba8.
 void upload(const pictures::Image& image, gpu::Texture& texture);
-/// One number a pixel, into a texture of one channel.
+/// Uploads one number per pixel into a texture with one channel.
 void uploadRows(std::span<const float> values, gpu::Texture& texture);
 
 }  // namespace dustbench::bench

@@ -1,4 +1,4 @@
-// The keys of the window and the buttons of a gamepad, and what they do: tables for the input and for the help.
+// The keys of the window and the buttons of a gamepad with their actions: tables for the input and for the help.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace dustbench::bench {
 
-/// Keys that the window or a text field reads, by what they are called, whatever the window system numbers them.
+/// Keys that the window or a text field reads, independent of the window system's numbers.
 enum class Key {
     left,
     right,
@@ -85,15 +85,15 @@ struct KeyBinding {
     Key key;
     bool control;  ///< together with Ctrl
     Action action;
-    std::string_view name;  ///< of the key, as the help says it
+    std::string_view name;  ///< of the key in the help
     std::string_view help;
 };
 
-/// In the order of the help. Driving is for as long as the key is held, as is flipping.
+/// In the order of the help. Driving and flipping last as long as the key is held.
 [[nodiscard]] std::span<const KeyBinding> keyBindings();
 [[nodiscard]] std::optional<Action> actionOf(Key key, bool control);
 
-/// Buttons of a gamepad by their place, as on one for an Xbox.
+/// Buttons of a gamepad by position, as on an Xbox controller.
 enum class PadButton { south, east, west, north, leftBumper, rightBumper, back, start };
 inline constexpr std::size_t padButtonCount = static_cast<std::size_t>(PadButton::start) + 1;
 
@@ -103,10 +103,10 @@ struct PadBinding {
     std::string_view name, help;
 };
 
-/// As keyBindings(). The stick and the triggers drive.
+/// As keyBindings(). Stick and triggers have no entries: they drive.
 [[nodiscard]] std::span<const PadBinding> padBindings();
 
-/// What a gamepad reports.
+/// The state that a gamepad reports.
 struct PadState {
     float stickRight = 0;                     ///< of the left stick, −1..1
     float rightTrigger = 0, leftTrigger = 0;  ///< 0..1

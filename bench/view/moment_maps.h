@@ -1,4 +1,4 @@
-// What is computed on the CPU of one moment: FLIP between the halves, the overdraw and the faults of each.
+// Maps of one moment that are computed on the CPU: FLIP between the halves, and overdraw, outlines and faults of each.
 //
 // Owns: the maps' textures. Threads: the device's, inside the oneTBB arena to be used.
 #pragma once
@@ -13,7 +13,7 @@
 
 namespace dustbench::bench {
 
-/// Pixels of a layer whose values a picture cannot have.
+/// Number of pixels of a layer with values that are impossible in a picture.
 struct LayerFaults {
     std::int64_t notFinite = 0;
     std::int64_t negative = 0;          ///< a colour
@@ -26,21 +26,21 @@ class MomentMaps {
  public:
     explicit MomentMaps(gpu::Device& device) : device_(device) {}
 
-    /// FLIP of A's picture, B's being the reference, in heat colours from 0 to 1. Computed once for a moment. Throws
+    /// FLIP of A's picture with B's as reference, in heat colours from 0 to 1. Computed once per moment. Throws
     /// InputError for pictures with values that are not finite.
     [[nodiscard]] const gpu::Texture& flip(const ViewSession& session);
     /// Mean of the last map, and how long it took; empty before the first.
     [[nodiscard]] std::optional<double> flipMean() const { return flipMean_; }
     [[nodiscard]] double flipSeconds() const { return flipSeconds_; }
 
-    /// Primitives over each pixel in heat colours from 0 to `overdrawLimit`, of both halves by one scale. A half
-    /// without primitives is black.
+    /// Number of primitives over each pixel in heat colours from 0 to `overdrawLimit`, on one scale for both halves. A
+    /// half without primitives is black.
     [[nodiscard]] const gpu::Texture& overdraw(ViewSession& session, Half half);
-    /// Outlines of the primitives over the darkened picture (outlines.h). Of a half that is current.
+    /// Outlines of the primitives over the darkened picture (outlines.h). The half must be current.
     [[nodiscard]] const gpu::Texture& outlines(ViewSession& session, Half half);
     [[nodiscard]] double overdrawLimit() const { return overdrawLimit_; }
 
-    /// Of a half that is current.
+    /// The half must be current.
     [[nodiscard]] const LayerFaults& faults(const ViewSession& session, Half half);
 
  private:

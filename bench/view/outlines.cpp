@@ -13,15 +13,15 @@ namespace {
 
 constexpr double quadHalfSide = 1.5;  // of the radius
 constexpr float darkened = 0.3f;
-/// What one outline leaves of what is below it.
+/// Share of the light below that one outline lets through.
 constexpr float seenThrough = 0.45f;
-/// Linear light, told apart by colour-blind readers as well.
+/// Linear light. Colour-blind readers can distinguish them.
 const glm::vec3 quadColour(0.87f, 0.76f, 0.05f), voxelColour(0.09f, 0.46f, 0.81f);
 
-/// Adds 1 to every pixel on the way, the last one left out: outlines of several such lines count corners once.
+/// Adds 1 to every pixel of the line except the last one, so that an outline of several lines counts corners once.
 void addLine(Plane& plane, glm::dvec2 from, glm::dvec2 to) {
     const glm::dvec2 way = to - from;
-    // Cut to the picture first (Liang and Barsky), so that a line over a million pixels costs no more than one across.
+    // Clipped to the picture first (Liang and Barsky), so that the cost of a line depends only on its visible part.
     double begin = 0, end = 1;
     const glm::dvec2 size(plane.width, plane.height);
     for (int axis = 0; axis < 2; ++axis) {
@@ -42,7 +42,7 @@ void addLine(Plane& plane, glm::dvec2 from, glm::dvec2 to) {
     }
 }
 
-/// Between places in the camera's frame; what is nearer than the near plane is cut off.
+/// Draws a line between points in the camera's frame, clipped at the near plane.
 void addEdge(Plane& plane, const CameraRays& rays, double nearMetres, glm::dvec3 from, glm::dvec3 to) {
     if (from.z < to.z) std::swap(from, to);
     if (!(from.z > nearMetres)) return;

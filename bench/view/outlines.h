@@ -1,6 +1,6 @@
-// The outlines of what a method hands to the GPU: the quad around each puff, the twelve edges of each voxel.
+// Outlines of a method's primitives: the quad around each puff, the twelve edges of each voxel.
 //
-// Nothing hides them: neither the scene nor one another. Units: pixels. Frame: rows from the top. Threads: pure.
+// Neither the scene nor other primitives hide them. Units: pixels. Frame: rows from the top. Threads: pure.
 #pragma once
 
 #include "bench/export/collected_volume.h"
@@ -12,13 +12,13 @@ namespace dustbench::bench {
 
 /// How many outlines pass through each pixel.
 struct Outlines {
-    Plane quads;   ///< of puffs: squares across the view with half side 1.5 r, as overdrawMap fills them
-    Plane voxels;  ///< edges of the octrees' voxels, cut off before the eye
+    Plane quads;   ///< of puffs: squares that face the camera, with half side 1.5 r, as in overdrawMap
+    Plane voxels;  ///< edges of the octrees' voxels, clipped in front of the eye
 };
 [[nodiscard]] Outlines outlinesOf(const CollectedVolume& volume, const scene::View& view);
 
-/// The picture darkened, quads yellow and voxels blue over it, brighter where several lie upon each other. Linear
-/// light. Throws std::invalid_argument if the sizes differ.
+/// Draws quads yellow and voxels blue over the darkened picture, brighter where several overlap. Linear light. Throws
+/// std::invalid_argument if the sizes differ.
 [[nodiscard]] pictures::Image withOutlines(pictures::Image picture, const Outlines& outlines);
 
 }  // namespace dustbench::bench

@@ -26,7 +26,7 @@ ComparedSide sideOf(const PlannedRun& cell) {
     return {cell.spec.method, cell.spec.parameters, cell.label + " (" + cell.spec.method + ")"};
 }
 
-/// Tells of the runs; between them it lets the window draw.
+/// Reports the progress of the runs, and lets the window draw between them.
 class Teller : public ExecutionListener {
  public:
     explicit Teller(const MeasurementHooks& hooks) : hooks_(hooks) {}
@@ -40,7 +40,7 @@ class Teller : public ExecutionListener {
     void ended(const PlannedRun& run, RunStatus status, const std::string& reason) override {
         if (status != RunStatus::done && whyNot_.empty()) whyNot_ = fmt::format("{}: {}", run.spec.method, reason);
     }
-    /// Of the first run that gave no result; empty if all did.
+    /// Why the first failed run failed; empty if none did.
     [[nodiscard]] const std::string& whyNot() const { return whyNot_; }
 
  private:
@@ -51,7 +51,7 @@ class Teller : public ExecutionListener {
 std::string timesOf(const PlannedRun& cell, const Suite& suite, const StoredRuns& runs) {
     const auto done = doneRuns(cell, suite.repetitions, runs);
     const auto times = numbersIn(done, "frame_ms_median");
-    if (times.empty()) return fmt::format("{}: no times", sideOf(cell).label);
+    if (times.empty()) return fmt::format("{}: no times measured", sideOf(cell).label);
     const std::string invalid = saysInvalid(done);
     return fmt::format("frame_ms_median: {} takes {:.3f} ms, {:.3f} to {:.3f} in {} runs{}{}", sideOf(cell).label,
                        median(times), minimum(times), maximum(times), times.size(), invalid.empty() ? "" : "; ",
@@ -63,7 +63,7 @@ std::string timesOf(const PlannedRun& cell, const Suite& suite, const StoredRuns
 Suite measurementOf(const ViewState& state) {
     Suite suite;
     suite.id = "view";
-    suite.title = "what the window showed";
+    suite.title = "Measurement from the window";
     suite.repetitions = measuredRepetitions;
     suite.baseline = true;
     suite.cells.push_back(cellOf(state, Half::a));

@@ -1,4 +1,4 @@
-// The protocol on what is shown. Children are shell scripts that copy what a run would write.
+// The measurement protocol for the shown state. Child processes are shell scripts that copy the files of a run.
 #include "bench/view/shown_measurement.h"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ class ShownMeasurement : public testing::Test {
         state_.b = HalfState{"octree_search", {}};
         fs::create_directories(folder_.path() / "made");
     }
-    /// Children whose runs take `msOf` their method.
+    /// Child processes whose runs take `msOf` their method.
     MeasurementHooks children(const Suite& suite, const std::function<double(const RunSpec&)>& msOf) {
         for (const PlannedRun& run : planRuns(suite)) {
             RunRecord record;

@@ -9,7 +9,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// What the shader shows, as it numbers it.
+/// Numbers of the shader's `source`.
 enum class Source { display = 0, light = 1, alpha = 2, depth = 3, faults = 4 };
 
 float dividerOf(const SplitSettings& settings) {

@@ -1,4 +1,4 @@
-// Two halves in one: C = A left of the divider, B right of it; or C = ½ + gain·(B − A)/2, grey where they agree.
+// Combines two halves: C = A left of the divider, B right of it; or C = ½ + gain·(B − A)/2, grey where they are equal.
 layout(binding = 0) uniform sampler2D displayA;
 layout(binding = 1) uniform sampler2D sceneA;
 layout(binding = 2) uniform sampler2D layerA;
@@ -7,9 +7,9 @@ layout(binding = 4) uniform sampler2D displayB;
 layout(binding = 5) uniform sampler2D sceneB;
 layout(binding = 6) uniform sampler2D layerB;
 layout(binding = 7) uniform sampler2D depthB;
-uniform vec4 region;       // origin and extent, shares of the pictures
+uniform vec4 region;       // origin and extent of the visible part, shares of the pictures
 uniform vec2 size;         // of the target, pixels
-uniform float divider;     // share of the target's width: 1 is A alone, 0 is B alone
+uniform float divider;     // share of the target's width: 1 shows only A, 0 only B
 uniform int beside;        // 1: A in the left half of the target, B in the right
 uniform float gain;        // of the difference; 0: none is shown
 uniform int source;        // 0 display, 1 light, 2 alpha, 3 depth, 4 faults
@@ -35,7 +35,7 @@ float depthGrey(float depth) {
     return clamp(1.0 - log2(nearMetres / max(depth, 1e-9)) / log2(1000.0), 0.0, 1.0);
 }
 
-/// By its bits, for a compiler may take every number for a finite one.
+/// Tests the bits, because a compiler may assume that every number is finite.
 bool isFinite(vec4 value) {
     uvec4 exponent = floatBitsToUint(value) & 0x7f800000u;
     return all(notEqual(exponent, uvec4(0x7f800000u)));

@@ -1,8 +1,7 @@
-// Puts what two halves have drawn into one picture: under a divider, side by side, one alone, or as a signed
-// difference.
+// Combines the pictures of two halves: with a divider, side by side, one alone, or as a signed difference.
 //
 // Units: shares of width and height from the lower left corner. A picture is enlarged by repeating its pixels, so that
-// single ones can be told apart.
+// single pixels stay visible.
 #pragma once
 
 #include "methods/contract/choices.h"
@@ -13,7 +12,7 @@
 
 namespace dustbench::bench {
 
-/// How the two are put together. flip: FLIP's map between them.
+/// How the two pictures are combined. flip: FLIP's map between them.
 enum class Shown { a, b, wipe, beside, difference, flip };
 inline constexpr Choices<Shown> shownChoices{{"A", Shown::a},
                                              {"B", Shown::b},
@@ -22,7 +21,7 @@ inline constexpr Choices<Shown> shownChoices{{"A", Shown::a},
                                              {"difference", Shown::difference},
                                              {"flip", Shown::flip}};
 
-/// What of them is shown.
+/// The quantity that is shown.
 ///   alpha     of the layer: 0 black, 1 white
 ///   depth     of the opaque scene along the camera's axis, by its logarithm: white at 1 m, black from 1 km on
 ///   overdraw  primitives over each pixel
@@ -37,16 +36,16 @@ struct SplitSettings {
     Shown shown = Shown::wipe;
     float divider = 0.5f;  ///< share of the width that shows A
     float gain = 4;        ///< of the difference, above 0
-    glm::vec2 origin{0};   ///< of the part that is shown: a share of the pictures
+    glm::vec2 origin{0};   ///< of the visible part: a share of the pictures
     glm::vec2 extent{1};
     Channel channel = Channel::picture;
     float stops = 0;      ///< exposure: light is multiplied by 2^stops before it is encoded
-    bool encoded = true;  ///< for display; else linear light as it is, of the channel `picture` only
+    bool encoded = true;  ///< for display; otherwise linear light, only for the channel `picture`
 
     friend bool operator==(const SplitSettings&, const SplitSettings&) = default;
 };
 
-/// What a half has drawn, all of one size.
+/// The textures that a half has drawn, all of the same size.
 struct HalfTextures {
     const gpu::Texture& display;  ///< the picture, display-encoded
     const gpu::Texture& scene;    ///< linear light
@@ -58,8 +57,8 @@ class SplitView {
  public:
     explicit SplitView(gpu::Device& device);
 
-    /// Fills the target, which is `width` × `height`. `flip`, `overdraw` and `outlines` show `display`: what is in it
-    /// is the caller's business. Throws std::invalid_argument if the halves differ in size.
+    /// Fills the target, which is `width` × `height`. `flip`, `overdraw` and `outlines` show `display`, into which the
+    /// caller must have put these maps. Throws std::invalid_argument if the halves differ in size.
     void draw(const HalfTextures& a, const HalfTextures& b, const SplitSettings& settings, double nearMetres,
               const gpu::Framebuffer& target, int width, int height);
 

@@ -43,7 +43,7 @@ class Split : public testing::Test {
         split_.draw(a, b, settings, nearMetres, target_, splitWidth, splitHeight);
         return draw::readBack(result_);
     }
-    /// Four numbers a pixel, from the lower left corner.
+    /// Four numbers per pixel, from the lower left corner.
     gpu::Texture light(const std::vector<float>& values) {
         gpu::Texture texture = gpu::Texture::make2D(device_, "light", gpu::Format::rgba32F, splitWidth, splitHeight);
         texture.write(std::span<const float>(values));

@@ -41,7 +41,7 @@ void addParameter(std::vector<std::string>& words, const MethodInfo& method, con
         return;
     }
     if (expandValues(name, value) != std::vector{value})
-        throw InputError(fmt::format("parameter {}: the command line would take '{}' for several values", name, value));
+        throw InputError(fmt::format("parameter {}: the command line would read '{}' as several values", name, value));
     words.insert(words.end(), {"-P", name + "=" + value});
 }
 
@@ -53,7 +53,7 @@ std::int64_t integer(const std::string& option, const std::string& text, std::in
     return value;
 }
 
-/// Parses one line: options that the state needs, and those that it ignores.
+/// Parses one line with the options that the state needs and those that it ignores.
 class LineReader {
  public:
     LineReader() {
@@ -119,8 +119,7 @@ class LineReader {
         const std::string name = text.substr(0, equals);
         const std::vector<std::string> values = expandValues(name, text.substr(equals + 1));
         if (values.size() != 1)
-            throw InputError(fmt::format("-P: parameter {}: got {} values, expected one: a view shows one run", name,
-                                         values.size()));
+            throw InputError(fmt::format("-P: parameter {}: got {} values, expected one", name, values.size()));
         if (!given_.emplace(name, values.front()).second) throw InputError("-P: parameter " + name + " is given twice");
     }
     ViewState finished() {
@@ -128,7 +127,8 @@ class LineReader {
         const MethodInfo& method = findMethod(state_.a.method);
         if (!changes_.empty()) {
             const Parameter* changes = changesOf(method);
-            if (!changes) throw InputError("--at: nothing of method '" + method.id + "' changes while a run goes on");
+            if (!changes)
+                throw InputError("--at: method '" + method.id + "' has no setting that can change during a run");
             given_[changes->name] = changes_;
         }
         (void)resolveParameters(method, given_);

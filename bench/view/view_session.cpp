@@ -26,7 +26,7 @@ bool needsHost(const ViewState& state, Half which) {
     return which == Half::a || (state.b && !showsExact(state));
 }
 
-/// Without what can be changed in a world that goes on: halves, camera, size and frame.
+/// The state without the parts that can change in a running world: halves, camera, size and frame.
 ViewState worldAlone(ViewState state) {
     state.a = {};
     state.b.reset();
@@ -83,7 +83,7 @@ void ViewSession::begin(const ViewState& state) {
     Halves halves;
     for (const Half which : bothHalves)
         if (needsHost(state, which)) halves[indexOf(which)] = makeHalf(state, which, *world);
-    // Hosts refer to their world, so they go first.
+    // Hosts refer to their world, so they are destroyed first.
     halves_ = std::move(halves);
     truth_ = {};
     world_ = std::move(world);
@@ -111,7 +111,7 @@ std::unique_ptr<World> ViewSession::makeWorld(const ViewState& state, std::share
 ViewSession::ShownHalf ViewSession::makeHalf(const ViewState& state, Half which, const World& world) const {
     const MethodInfo& method = findMethod(half(state, which).method);
     if (const std::string reason = whyNotTaken(method, world.scene()); !reason.empty())
-        throw InputError(fmt::format("method {} cannot take scene '{}': {}", method.id, state.scene, reason));
+        throw InputError(fmt::format("method {} cannot show scene '{}': {}", method.id, state.scene, reason));
     ParameterValues values(method.parameters);
     for (const auto& [name, text] : half(state, which).parameters) values.set(name, text);
     ShownHalf shown;
@@ -138,8 +138,8 @@ void ViewSession::replaceHalves(const ViewState& state) {
     makeTruth(state);
 }
 
-/// Without the reliefs and lamps of A's method, which B's scene would lack: those have a simulation of their own. Dust
-/// of several colours takes seconds without a GPU.
+/// There is no live ground truth if A's method simulates its own dust. All methods with reliefs and lamps, which would
+/// be missing, do so. Nor is there one for dust of several colours without a GPU, because it takes seconds.
 void ViewSession::makeTruth(const ViewState& state) {
     const bool isKnown = std::ranges::any_of(methods(), [](const MethodInfo& info) { return info.id == liveTruth; });
     const bool isFast = world_->dust().uniformColour || !device_.isSoftware();
@@ -177,7 +177,7 @@ void ViewSession::step() {
     ++next_;
     ++moment_;
     if (state_.drive == keyboardDrive && isOfDrive) recording_.add(world_->controls());
-    // As replay.h: a method is updated from the last step of the preroll on, or all the time if it wants that.
+    // As in replay.h: a method is updated from the last step of the preroll on, or always if it requests that.
     for (ShownHalf& shown : halves_)
         if (shown.host && (frame() >= -state_.warmup - 1 || shown.host->method().wantsPreroll())) updateHalf(shown);
     if (truth_.host && frame() >= -state_.warmup - 1) updateHalf(truth_);
@@ -250,7 +250,7 @@ ViewState ViewSession::replayOf(const std::string& file) const {
         throw std::logic_error("ViewSession: nothing has been driven by keyboard");
     ViewState replay = state();
     replay.drive = file;
-    replay.world.erase("speed");  // a drive by pedals has no target speeds to replace
+    replay.world.erase("speed");  // a drive with pedals has no target speeds that this could replace
     return replay;
 }
 

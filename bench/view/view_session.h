@@ -1,8 +1,8 @@
-// One world stepped once a frame, shown by up to two methods side by side, or by one beside the exact picture.
+// One world, stepped once a frame and drawn by up to two methods, or by one method next to the ground truth.
 //
-// Each method has the host of a run, with its own targets and its own ledger, and gets the updates that a run gives it.
-// Owns: world and hosts. Threads: the device's, inside the oneTBB arena to be used; `ViewState::threads` is the
-// caller's business.
+// Each method has the host of a run, with its own targets and its own ledger, and gets the same updates as in a run.
+// Owns: world and hosts. Threads: the device's, inside the oneTBB arena to be used; the caller applies
+// `ViewState::threads`.
 #pragma once
 
 #include <algorithm>
@@ -24,14 +24,14 @@
 
 namespace dustbench::bench {
 
-/// Milliseconds by stage (methods/contract/stage_clock.h). A wait for the GPU follows each stage, so that queued work
-/// counts where it was queued.
+/// Milliseconds by stage (methods/contract/stage_clock.h). Each stage ends with a wait for the GPU, so that it includes
+/// the work that it queued.
 using StageMs = std::array<double, stageNames.size()>;
 [[nodiscard]] inline double sum(const StageMs& stages) {
     return std::accumulate(stages.begin(), stages.end(), 0.0);
 }
 
-/// Of one half's last step and last picture.
+/// Costs of a half's last step and last picture.
 struct HalfCost {
     StageMs update{}, draw{};
     [[nodiscard]] double totalMs() const { return sum(update) + sum(draw); }
@@ -39,47 +39,48 @@ struct HalfCost {
 
 class ViewSession {
  public:
-    /// At the beginning of the preroll. Throws InputError for a state that cannot be shown. `device` must outlive it.
+    /// Starts at the beginning of the preroll. Throws InputError for a state that cannot be shown. `device` must
+    /// outlive the session.
     ViewSession(const ViewState& state, gpu::Device& device);
 
-    /// With the frame that is shown, or the later one that is on its way.
+    /// The state with the current frame, or the later one that the session is stepping to.
     [[nodiscard]] ViewState state() const;
-    /// Does as little as possible: a new half joins the running world, a new camera only looks at it, and any other
-    /// change of the world restarts it. Throws InputError and changes nothing if the state cannot be shown.
+    /// Changes as little as possible: a new half or camera joins the running world; any other change of the world
+    /// restarts it. Throws InputError and changes nothing if the state cannot be shown.
     void set(const ViewState& state);
-    /// From the beginning of the preroll to frame 0.
+    /// Starts again at the beginning of the preroll, up to frame 0.
     void restart();
 
-    /// One step of the world, and the update of every half that a run would give it.
+    /// Steps the world and updates every half as a run would.
     void step();
-    /// Of the last step, as in a run: the warm-up and the preroll before it are below 0.
+    /// Frame of the last step, as in a run: warm-up and preroll are below 0.
     [[nodiscard]] std::int64_t frame() const { return next_ - 1; }
-    /// Steps to go until the frame of the state that was set.
+    /// Number of steps to the frame of the state that was set.
     [[nodiscard]] std::int64_t stepsToGo() const { return std::max<std::int64_t>(state_.frame - frame(), 0); }
 
-    /// Draws every method, as large as the state says or as given; its picture is valid until the next call or set().
+    /// Draws every method at the state's size or at `size`. The pictures are valid until the next call or set().
     void draw() { draw(state_.size); }
     void draw(const ImageSize& size);
-    /// Of the last draw().
+    /// Size of the last draw().
     [[nodiscard]] ImageSize drawnSize() const { return drawnSize_; }
-    /// Draws the exact picture of the world as it is now, and the methods with it, as large as the state says. Half B
-    /// must be the exact picture.
+    /// Draws the ground truth of the world's current state, and the methods, at the state's size. Half B must be the
+    /// ground truth.
     void drawExact();
-    /// Of the last draw: another number is another state of the world, of a method or of the camera.
+    /// Identifies the last draw: a different number means another state of the world, a method or the camera.
     [[nodiscard]] std::int64_t drawnMoment() const { return drawnMoment_; }
     [[nodiscard]] std::int64_t drawnFrame() const { return drawnFrame_; }
-    /// The half shows the moment that was drawn last: false for an exact picture of an earlier one, or none.
+    /// The half shows the moment that was drawn last: false for the ground truth of an earlier one, or none.
     [[nodiscard]] bool isCurrent(Half half) const;
-    /// Half B is the judge's exact picture of the moment that was drawn last, with numbers; it may be current without
-    /// that, drawn by the live truth.
+    /// Half B is the ground truth of the moment that was drawn last, with metrics. Half B may be current without that,
+    /// if `liveTruth` has drawn it.
     [[nodiscard]] bool isJudged() const { return exact_ && exactMoment_ == drawnMoment_; }
-    /// The world has gone on, or the state has changed, since the last draw.
+    /// The world or the state has changed since the last draw.
     [[nodiscard]] bool isBehind() const { return drawnMoment_ != moment_; }
 
-    /// What a half has drawn; it must be current.
+    /// The textures that a half has drawn; it must be current.
     [[nodiscard]] HalfTextures textures(Half half) const;
     [[nodiscard]] const gpu::Texture& picture(Half half) const { return textures(half).display; }
-    /// The picture in linear light, opaque, as large as it was drawn.
+    /// The picture in linear light, opaque, at the size at which it was drawn.
     [[nodiscard]] pictures::Image image(Half half) const;
 
     [[nodiscard]] const World& world() const { return *world_; }
@@ -87,23 +88,23 @@ class ViewSession {
     [[nodiscard]] bool has(Half half) const { return hasHost(half) || isExact(half); }
     [[nodiscard]] bool isExact(Half half) const { return half == Half::b && showsExact(state_); }
     [[nodiscard]] bool hasHost(Half half) const { return static_cast<bool>(halves_.at(indexOf(half)).host); }
-    /// Of a half that is a method.
+    /// The half must be a method.
     [[nodiscard]] const MethodHost& host(Half half) const { return *halves_.at(indexOf(half)).host; }
-    /// The volume that a half's method shows.
+    /// Visits the volume that a half's method shows.
     void volume(Half half, VolumeVisitor& visitor);
-    /// Of half B; isJudged() must be true.
+    /// The ground truth in half B; isJudged() must be true.
     [[nodiscard]] const ExactHalf& exact() const { return *exact_; }
     [[nodiscard]] HalfCost cost(Half half) const { return halves_.at(indexOf(half)).cost; }
-    /// Of the last step of the world, which both halves show: input and simulation.
+    /// Duration of the last step of the world, which both halves share: input and simulation.
     [[nodiscard]] double worldMs() const { return worldMs_; }
-    /// False for a half that joined later: if its method remembers earlier frames, a run shows another picture.
+    /// False for a half that joined later: if its method depends on earlier frames, a run shows another picture.
     [[nodiscard]] bool isSinceStart(Half half) const { return halves_.at(indexOf(half)).sinceStart; }
 
-    /// What the driver holds; only read if the drive is keyboardDrive.
+    /// The driver's current input; only read if the drive is keyboardDrive.
     [[nodiscard]] DrivingInput& input() { return *input_; }
     [[nodiscard]] const DrivingInput& input() const { return *input_; }
-    /// The drive so far as a drive file, and the state whose drive it is: `file` is its name. Throws std::logic_error
-    /// unless the drive is keyboardDrive and has begun.
+    /// The recorded drive as a drive file, and the state that replays it from `file`. Throws std::logic_error unless
+    /// the drive is keyboardDrive and has begun.
     [[nodiscard]] std::string recordedDrive() const { return recording_.csv(); }
     [[nodiscard]] ViewState replayOf(const std::string& file) const;
     [[nodiscard]] std::size_t recordedSteps() const { return recording_.steps(); }
@@ -133,7 +134,7 @@ class ViewSession {
     std::unique_ptr<World> world_;
     Halves halves_;
     std::unique_ptr<ExactHalf> exact_;
-    ShownHalf truth_;  ///< the live truth; empty if half B is a method, or A shows other dust than the shared
+    ShownHalf truth_;  ///< draws with liveTruth; empty if half B is a method, or if A shows dust of its own
     ControlRecording recording_;
     std::int64_t next_ = 0;
     std::int64_t moment_ = 0, drawnMoment_ = -1, exactMoment_ = -1;

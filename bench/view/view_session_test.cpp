@@ -186,7 +186,7 @@ TEST(SessionAndRun, EndARecordedDriveInTheSameState) {
         ViewState state = smallView(methods().front().id);
         state.drive = keyboardDrive;
         state.seed = seed;
-        state.world["speed"] = "20";  // without effect on the keyboard's car
+        state.world["speed"] = "20";  // without effect on a car driven by keyboard
         std::string line, hash;
         {
             gpu::Device device;
@@ -211,7 +211,7 @@ TEST_F(Session, RefusesASceneThatItsMethodCannotTake) {
         const World world("plain", "", ParameterValues(worldParameters()), 1);
         if (takes(method, world)) continue;
         EXPECT_THAT(inputError([&] { ViewSession(smallView(method.id), device_); }),
-                    HasSubstr("cannot take scene 'plain'"));
+                    HasSubstr("cannot show scene 'plain'"));
     }
 }
 

@@ -11,7 +11,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// The values of `given` that are needed to get all of its values.
+/// The smallest part of `given` that results in the same values.
 ParameterTexts necessary(const MethodInfo& method, const ParameterTexts& given) {
     const ParameterTexts whole = canonicalParameters(method, given);
     ParameterTexts needed = whole;
@@ -55,10 +55,11 @@ bool showsExact(const ViewState& state) {
 
 RunSpec runOf(const ViewState& state, Half which) {
     if (state.drive == keyboardDrive)
-        throw InputError("drive: a run cannot be driven by keyboard; save the recording and name its file");
+        throw InputError("drive: a run cannot be driven by keyboard; save the recording and use its file as the drive");
     const HalfState& shown = half(state, which);
     if (shown.method == exactPicture)
-        throw InputError("exact: no run draws this picture; `dustbench run --metrics` saves it beside the method's");
+        throw InputError(
+            "exact: no run draws the ground truth; `dustbench run --metrics` saves it next to the method's pictures");
     const MethodInfo& method = findMethod(shown.method);
     RunSpec spec;
     spec.method = method.id;
@@ -79,7 +80,7 @@ RunSpec runOf(const ViewState& state, Half which) {
 
 ViewState normalised(const ViewState& state) {
     if (state.a.method == exactPicture)
-        throw InputError("half A: got 'exact', allowed: a method; the exact picture is half B, over A's scene");
+        throw InputError("half A: got 'exact', allowed: a method; only half B can be the ground truth");
     ViewState result = state;
     result.a = normalisedHalf(state.a);
     if (state.b) result.b = normalisedHalf(*state.b);

@@ -1,6 +1,6 @@
-// The whole state of the window as a value, and as text: a `dustbench run` line for each half, or TOML.
+// The state of the window as a value and as text: a `dustbench run` line for each half, or TOML.
 //
-// A half shows the picture that its line's run saves for the last frame.
+// A half shows the picture that the run of its line saves for the last frame.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@ namespace dustbench::bench {
 
 enum class Half { a, b };
 
-/// In place of half B's method: the exact picture of the shared dust over half A's scene. No run draws it.
+/// As half B's method: the ground truth of the shared dust in half A's scene. No run draws it.
 inline constexpr const char* exactPicture = "exact";
-/// The method whose picture is the exact one, to 1e-5: while things move, if this build has it.
+/// The method that draws the ground truth to within 1e-5 while things move, if this build has it.
 inline constexpr const char* liveTruth = "exact_tiles";
 
-/// A method and those of its parameters that are set; the others have their defaults.
+/// A method and the parameters that are set; the others have their defaults.
 struct HalfState {
     std::string method;  ///< or exactPicture
     ParameterTexts parameters;
@@ -37,7 +37,7 @@ struct ViewState {
     std::uint64_t seed = 1;
     ImageSize size;
     int threads = 0;          ///< 0: one per core
-    std::int64_t warmup = 0;  ///< frames before frame 0, as a run has them
+    std::int64_t warmup = 0;  ///< number of frames before frame 0, as in a run
     std::int64_t frame = 0;
     HalfState a;
     std::optional<HalfState> b;
@@ -45,31 +45,31 @@ struct ViewState {
     friend bool operator==(const ViewState&, const ViewState&) = default;
 };
 
-/// In place of a drive: the vehicle is driven live. A run cannot do that; save the recording and name its file.
+/// As the drive: the vehicle is driven live. A run cannot do that; it can replay a saved recording.
 inline constexpr const char* keyboardDrive = "keyboard";
 
 [[nodiscard]] const HalfState& half(const ViewState& state, Half half);
-/// Half B is the exact picture.
+/// Half B is the ground truth.
 [[nodiscard]] bool showsExact(const ViewState& state);
 
 /// The run that ends with the half's picture. Throws InputError for an unknown name or an invalid value, and for
 /// keyboardDrive and exactPicture.
 [[nodiscard]] RunSpec runOf(const ViewState& state, Half half);
 
-/// Without what has its default anyway, presets considered, in canonical form: states that mean the same are equal.
-/// Throws InputError for an unknown name or an invalid value.
+/// Removes parameters that equal their defaults, with presets considered, and writes values in canonical form, so that
+/// equivalent states are equal. Throws InputError for an unknown name or an invalid value.
 [[nodiscard]] ViewState normalised(const ViewState& state);
 
 /// `dustbench run … --out OUT`, quoted for a shell. Throws InputError as runOf does, and for a value that the command
-/// line would take for several.
+/// line would read as several values.
 [[nodiscard]] std::string commandLine(const ViewState& state, Half half, const std::string& out);
 
-/// The state that a `dustbench run` line stands for, without half B. Options that do not change the picture are
-/// ignored. Throws InputError for anything that `run` would not accept, or that gives several runs.
+/// Reads the state from a `dustbench run` line, without half B. Options that do not change the picture are ignored.
+/// Throws InputError for anything that `run` would not accept, or that means several runs.
 [[nodiscard]] ViewState stateOfCommandLine(std::string_view line);
 
 [[nodiscard]] std::string toToml(const ViewState& state);
-/// `name` is the file in messages. Throws InputError with file, line and what was expected.
+/// `name` is the file in messages. Throws InputError with file, line and the expected content.
 [[nodiscard]] ViewState stateOfToml(std::string_view text, const std::string& name);
 
 }  // namespace dustbench::bench

@@ -41,7 +41,7 @@ std::string otherValue(const Parameter& parameter) {
     return {};
 }
 
-/// A state with everything off its default but the method's parameters.
+/// A state in which everything except the method's parameters differs from its default.
 ViewState unusual(const std::string& method) {
     ViewState state;
     state.scene = "dir with 'quotes'/scene.toml";
@@ -177,7 +177,7 @@ TEST(ViewState, TheExactPictureIsHalfBAlone) {
     EXPECT_TRUE(showsExact(state));
     state = normalised(state);
     EXPECT_EQ(stateOfToml(toToml(state), "state.toml"), state) << toToml(state);
-    EXPECT_THAT(inputError([&] { (void)runOf(state, Half::b); }), HasSubstr("no run draws this picture"));
+    EXPECT_THAT(inputError([&] { (void)runOf(state, Half::b); }), HasSubstr("no run draws the ground truth"));
     EXPECT_FALSE(showsExact(stateOfCommandLine(commandLine(state, Half::a, "o"))));
     ViewState wrong = state;
     wrong.b->parameters["soft"] = "on";

@@ -45,7 +45,7 @@ ParameterTexts readParameters(TomlReader& parent, const std::string& key) {
     return parameters;
 }
 
-/// Errors of names and values say where they are.
+/// Adds the location to errors in names and values.
 template <typename Check>
 void checked(const TomlReader& table, const Check& check) {
     try {

@@ -26,7 +26,7 @@ std::string nextCamera(const ViewState& state) {
     return now + 1 < words.end() ? *(now + 1) : words.front();
 }
 
-/// The next of a table, after the last the first.
+/// The next element of a table, cyclically.
 template <typename Enumeration>
 Enumeration after(const Choices<Enumeration>& choices, Enumeration value) {
     const auto all = choices.all();
@@ -79,7 +79,7 @@ bool Viewer::holds(Action action) const {
            });
 }
 
-/// Of keys and gamepad what is pressed further.
+/// For each control, keys or gamepad count, whichever is pressed further; keys override the stick.
 void Viewer::drive() {
     const auto pressed = [](float value) {
         return std::isfinite(value) && std::abs(value) > stickPlay ? std::clamp(static_cast<double>(value), -1.0, 1.0)
@@ -113,7 +113,7 @@ void Viewer::perform(Action action) {
         case Action::steerLeft:
         case Action::steerRight:
         case Action::flip:
-            break;  // for as long as they are held
+            break;  // they act as long as they are held
         case Action::pause:
             paused = !paused;
             break;
@@ -161,7 +161,7 @@ void Viewer::perform(Action action) {
             break;
         case Action::exact:
             if (!session_.isExact(Half::b)) {
-                message_ = "exact picture: choose it as half B";
+                message_ = "ground truth: choose 'exact' as half B";
                 break;
             }
             paused = exactAsked_ = true;
@@ -235,7 +235,7 @@ void Viewer::advance(double secondsForPreroll) {
     try {
         makeFrame(secondsForPreroll);
     } catch (const std::exception&) {
-        requireContext();  // errors that follow from its loss say nothing of it
+        requireContext();  // other errors that its loss causes would be misleading
         throw;
     }
     requireContext();
@@ -243,7 +243,8 @@ void Viewer::advance(double secondsForPreroll) {
 
 void Viewer::requireContext() const {
     if (isLost_())
-        throw InputError("view: the OpenGL context is lost, because the GPU or its driver was reset; start it again");
+        throw InputError(
+            "view: the OpenGL context is lost, because the GPU or its driver was reset; start the window again");
 }
 
 void Viewer::makeFrame(double secondsForPreroll) {
@@ -267,11 +268,11 @@ void Viewer::makeFrame(double secondsForPreroll) {
     if (isCosted_) noteCost(session_.frame() > before, wasDrawn);
 }
 
-/// Nothing is drawn meanwhile but the progress between two runs.
+/// Meanwhile only the progress is drawn, between two runs.
 void Viewer::measureShown() {
     if (!measurement_) throw InputError("measure: no runs can be started from here");
     const Suite suite = measurementOf(session_.state());
-    isCosted_ = false;  // the window's share would be the measurement
+    isCosted_ = false;  // the window's share would include the measurement
     device_.finish();
     MeasurementHooks hooks = *measurement_;
     hooks.between = [this](const std::string& progress) {
@@ -321,7 +322,7 @@ void Viewer::turnCamera(double right, double up) {
 
 void Viewer::shiftCamera(double right, double up) {
     moveCamera([&](const CameraKey& key) {
-        // What lies at the target's distance follows the hand.
+        // Objects at the target's distance follow the mouse.
         const double height =
             2 * glm::distance(key.eye, key.target) * std::tan(glm::radians(key.fieldOfViewDegrees) / 2);
         return shifted(key, -height * right, -height * up);

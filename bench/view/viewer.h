@@ -1,8 +1,8 @@
-// What the window does, without a window: a session, how its two pictures are put together, and what keys and panels
-// ask for.
+// The logic of the window without a window: a session, the composition of its two pictures, and the actions of keys and
+// panels.
 //
-// Errors of the user's input become a message; the last state stays. A simulation that breaks down is paused. Owns:
-// session and composed picture. Threads: the device's.
+// An error in the user's input becomes a message and the last state stays. A failed simulation is paused. Owns: session
+// and composed picture. Threads: the device's.
 #pragma once
 
 #include <array>
@@ -29,12 +29,12 @@ inline constexpr std::array<int, 4> slownesses{1, 2, 4, 8};
 /// Milliseconds of a frame of the window: from one advance() to the next.
 struct FrameCost {
     double world = 0;                  ///< the step that both halves share
-    std::array<HalfCost, 2> halves{};  ///< of A and B: only what this frame did, nothing of an exact picture
-    double window = 0;                 ///< all the rest: composing, maps, the exact picture, panels, the display
+    std::array<HalfCost, 2> halves{};  ///< of A and B: only work of this frame, without the ground truth
+    double window = 0;                 ///< the rest: composing, maps, the ground truth, panels, the display
     [[nodiscard]] double methodsMs() const { return world + halves[0].totalMs() + halves[1].totalMs(); }
 };
 
-/// One pixel of a half, from the upper left corner.
+/// One pixel of a half. x and y count from the upper left corner.
 struct PixelValue {
     Half half;
     int x, y;
@@ -45,88 +45,88 @@ struct PixelValue {
 
 class Viewer {
  public:
-    /// `folder` is where files are saved; made when the first is.
+    /// Files are saved in `folder`, which is created for the first one.
     Viewer(const ViewState& state, gpu::Device& device, std::filesystem::path folder);
 
     void press(Key key, bool control);
     void release(Key key);
-    /// What a gamepad reports now; buttons act when they go down.
+    /// Takes the current state of a gamepad. Buttons act when they are pressed down.
     void usePad(const PadState& pad);
     void act(Action action);
 
-    /// Sets the state or, if it cannot be shown, a message.
+    /// Sets the state, or a message if it cannot be shown.
     void apply(const ViewState& state);
-    /// `run` line or TOML, as pasted.
+    /// Applies a `run` line or TOML, such as pasted text.
     void applyText(const std::string& text);
-    /// The same of a file, as dropped on the window.
+    /// The same for the text of a file that was dropped on the window.
     void applyFile(const std::filesystem::path& file);
-    /// Shows a message of the program around it.
+    /// Shows a message of the calling program.
     void say(std::string message) { message_ = std::move(message); }
 
-    /// A frame of the window: steps unless paused (the preroll for at most `secondsForPreroll`), draws and composes
-    /// unless drawing is paused. Throws InputError if the OpenGL context is lost.
+    /// Makes a frame of the window: steps unless paused (the preroll for at most `secondsForPreroll`), draws and
+    /// composes unless drawing is paused. Throws InputError if the OpenGL context is lost.
     void advance(double secondsForPreroll = 0.05);
     /// The composed picture of the last advance(), without panels, display-encoded.
     [[nodiscard]] const gpu::Texture& image() const { return image_; }
-    /// What it shows: its frame, the halves and the channel.
+    /// Describes the picture: its frame, the halves and the channel.
     [[nodiscard]] const std::string& stamp() const { return stamp_; }
-    /// As `split`, but A alone as long as the other half is not of this moment, and flipped while the key is held.
+    /// `split`, but A alone as long as half B does not show this moment, and flipped while the key is held.
     [[nodiscard]] SplitSettings settingsNow() const;
     [[nodiscard]] const MomentMaps& maps() const { return maps_; }
     [[nodiscard]] const LayerFaults& faults(Half half) { return maps_.faults(session_, half); }
-    /// At a place of image(), shares from its upper left corner.
+    /// Pixel at a position in image(), in shares from its upper left corner.
     [[nodiscard]] PixelValue valueAt(glm::vec2 place);
 
-    /// Enlarges by a factor above 0; the place stays where it is. Not below the whole picture, nor above 8 pixels.
+    /// Enlarges by a factor above 0, with `place` fixed. Shows at most the whole picture and at least 8 pixels.
     void zoom(glm::vec2 place, double factor);
-    /// Moves what is enlarged, by shares of image() to the right and down.
+    /// Moves the enlarged picture by shares of image() to the right and down.
     void pan(glm::vec2 shares);
 
-    /// Moves the camera by hand (free_camera.h), which then stands in the world. Shares of the picture's height.
+    /// Moves the camera by hand (free_camera.h), which then stays fixed in the world. Shares of the picture's height.
     void turnCamera(double right, double up);
     void shiftCamera(double right, double up);
     void dollyCamera(double factor);
 
-    /// Of the last frames after the preroll, the latest last. The window's share of a frame is known when it is over.
+    /// Costs of the last frames after the preroll, oldest first. The window's share is known when a frame has ended.
     [[nodiscard]] std::span<const FrameCost> costs() const { return costs_; }
     static constexpr std::size_t keptFrames = 120;
 
-    /// The last whole frame, once, if it was drawn as large as drawShare says: what DrawPace goes by.
+    /// The last complete frame for DrawPace, once, if it was drawn at drawShare.
     [[nodiscard]] std::optional<PacedFrame> takePaced() { return std::exchange(paced_, {}); }
     /// `drawn at 480x360 of 800x600 to keep 15 frames per second`; empty at full size.
     [[nodiscard]] std::string drawnRemark() const;
 
-    /// Asked after every frame, and when one fails: by default the driver.
+    /// Sets the function that is called after every frame, and when one fails. By default it asks the driver.
     void watchContext(std::function<bool()> isLost) { isLost_ = std::move(isLost); }
 
-    /// What Action::measure needs to start runs; without it, it is an error. It starts with the next advance(), which
-    /// then takes minutes; message() tells how far it is.
+    /// Enables Action::measure, which otherwise is an error. A measurement runs in the next advance(), which then takes
+    /// minutes; message() reports its progress.
     void setMeasurement(MeasurementHooks hooks) { measurement_ = std::move(hooks); }
-    /// Of the last measurement: its verdicts, as sentences.
+    /// Times and verdicts of the last measurement, as sentences.
     [[nodiscard]] const std::vector<std::string>& measured() const { return measured_; }
 
     [[nodiscard]] const ViewSession& session() const { return session_; }
     [[nodiscard]] ViewState state() const { return session_.state(); }
-    /// The command that makes a half's picture; its error where there is none.
+    /// The command that draws a half's picture, or the error if there is none.
     [[nodiscard]] std::string line(Half half) const;
-    /// A text for the clipboard, once.
+    /// Text for the clipboard, once.
     [[nodiscard]] std::string takeCopied() { return std::exchange(copied_, {}); }
     [[nodiscard]] const std::string& message() const { return message_; }
     [[nodiscard]] bool wantsToQuit() const { return quit_; }
 
     SplitSettings split;
-    bool exactEveryFrame = false;  ///< else the judge's exact picture is drawn when nothing moves
-    int slowness = 1;              ///< frames of the window for one step of the world: one of `slownesses`
-    bool drawingPaused = false;    ///< the world goes on; a frame is drawn only when state or view changes
-    /// While something moves the halves are drawn at `drawShare` of width and height (draw_pace.h) and scaled up. What
-    /// is judged, saved or at rest is drawn at full size.
+    bool exactEveryFrame = false;  ///< otherwise the ground truth with metrics is drawn only when nothing moves
+    int slowness = 1;              ///< frames of the window per step of the world: one of `slownesses`
+    bool drawingPaused = false;    ///< the world continues; a frame is drawn only when state or view changes
+    /// While something moves, the halves are drawn at `drawShare` of width and height (draw_pace.h) and scaled up. When
+    /// nothing moves, and for metrics, maps and saved pictures, they are drawn at full size.
     bool keepsPace = false;
     double drawShare = 1;
     bool paused = false, showsPanels = true, showsHelp = false;
-    bool walksPanel = false;  ///< the arrow keys belong to the panel
+    bool walksPanel = false;  ///< the arrow keys control the panel
 
  private:
-    /// Turns errors into the message; a simulation that breaks down is paused.
+    /// Turns errors into the message; pauses a failed simulation.
     void attempt(const std::function<void()>& work);
     void perform(Action action);
     [[nodiscard]] bool holds(Action action) const;
@@ -135,7 +135,7 @@ class Viewer {
     void makeFrame(double secondsForPreroll);
     void requireContext() const;
     void measureShown();
-    /// False if drawing is paused, or if all is drawn.
+    /// False if drawing is paused or everything is drawn.
     bool draw();
     void drawAtFullSize();
     [[nodiscard]] bool isPaced() const;
@@ -152,9 +152,9 @@ class Viewer {
     void savePicture();
     void saveVolume();
     [[nodiscard]] std::string frameName() const;
-    /// What image() shows, before it is encoded for display.
+    /// The light of image(), before it is encoded for display.
     [[nodiscard]] pictures::Image lightOfImage();
-    /// Half B if it can be shown, else A.
+    /// Half B if it can be shown, otherwise A.
     [[nodiscard]] Half secondHalf() const;
     template <typename Move>
     void moveCamera(const Move& move);
@@ -166,16 +166,16 @@ class Viewer {
     MomentMaps maps_;
     gpu::Texture image_, pixel_;
     gpu::Framebuffer target_, pixelTarget_;
-    std::int64_t momentBefore_ = -1;  ///< of the frame before
+    std::int64_t momentBefore_ = -1;  ///< of the previous frame
     bool exactAsked_ = false, measureAsked_ = false, mustDraw_ = true;
     std::optional<MeasurementHooks> measurement_;
     std::vector<std::string> measured_;
-    SplitSettings composed_;  ///< what image() shows
+    SplitSettings composed_;  ///< settings of image()
     std::int64_t framesSinceStep_ = 0;
     std::vector<FrameCost> costs_;
     std::int64_t frameStart_ = 0;  ///< of the last advance(), ns
     bool isCosted_ = false;        ///< the last advance() has an entry in costs_
-    bool wasPaced_ = false;        ///< and was drawn, and not to be judged
+    bool wasPaced_ = false;        ///< and was drawn at drawShare
     std::optional<PacedFrame> paced_;
     std::string stamp_;
     std::array<bool, keyCount> held_{};

@@ -1,4 +1,4 @@
-// What a viewer saves, and the command that it stands for.
+// The files that a viewer saves, and the command of its state.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Every format that can hold the volume; all of them if none can.
+/// Every format that can store the volume; all of them if none can.
 std::vector<VolumeFormat> formatsOf(const CollectedVolume& volume) {
     std::vector<VolumeFormat> all, possible;
     for (const auto& [word, format] : volumeFormats.all()) {
@@ -22,7 +22,7 @@ std::vector<VolumeFormat> formatsOf(const CollectedVolume& volume) {
     return possible.empty() ? all : possible;
 }
 
-/// Light that a picture can be made of again: not a comparison, nor a map.
+/// True if the view is light, which can be exposed again: not a comparison and not a map.
 bool isLight(const SplitSettings& settings) {
     return settings.channel == Channel::picture && settings.shown != Shown::difference && settings.shown != Shown::flip;
 }

@@ -56,7 +56,7 @@ TEST_F(Paced, ALoweredHalfIsScaledUpToTheViewAndSaysSo) {
     ASSERT_EQ(small.width, lowered.width);
     for (int y = 0; y < full.height; ++y)
         for (int x = 0; x < full.width; ++x) {
-            // Rows of the view are taken from the bottom.
+            // Rows of the view count from the bottom.
             const int row = lowered.height - 1 - static_cast<int>((full.height - 1 - y + 0.5) * 0.6);
             ASSERT_EQ(image.at(x, y), small.at(static_cast<int>((x + 0.5) * 0.6), row)) << x << ' ' << y;
         }
@@ -166,7 +166,7 @@ TEST_F(Paced, AtRestThePictureIsDrawnOnceAtFullSize) {
     const std::size_t frames = viewer_->costs().size();
     viewer_->advance();
     ASSERT_GT(viewer_->costs().size(), frames);
-    EXPECT_EQ(sum(viewer_->costs().back().halves[0].draw), 0);  // it is there already
+    EXPECT_EQ(sum(viewer_->costs().back().halves[0].draw), 0);  // it already exists
     viewer_->turnCamera(0.1, 0);
     viewer_->advance();
     EXPECT_EQ(drawn(), lowered);
@@ -200,7 +200,7 @@ TEST_F(Paced, OnlyFramesOfTheSizeThatWasAskedForAreCounted) {
     };
     EXPECT_EQ(counted(4), 0);  // switched off
     viewer_->keepsPace = true;
-    EXPECT_EQ(counted(4), 3);  // a frame's time is known when it is over
+    EXPECT_EQ(counted(4), 3);  // a frame's time is known when it has ended
     EXPECT_FALSE(viewer_->takePaced());
     lower();
     EXPECT_EQ(counted(4), 3);

@@ -1,4 +1,4 @@
-// How a viewer makes its picture, and what it says of it.
+// How a viewer composes its picture and describes it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace dustbench::bench {
 namespace {
 
-constexpr float minimumPixels = 8;  ///< shown of a picture's width and height
+constexpr float minimumPixels = 8;  ///< minimum width and height of the visible part
 
 std::string nameOf(const ViewState& state, Half half) {
     return fmt::format("{} {}", half == Half::a ? "A" : "B", bench::half(state, half).method);
@@ -39,7 +39,7 @@ bool Viewer::draw() {
     return true;
 }
 
-/// Maps and their numbers, and the exact picture, are of the full size.
+/// Maps, their numbers and the ground truth are drawn at full size.
 bool Viewer::isPaced() const {
     const bool isMap = split.shown == Shown::flip || split.channel == Channel::overdraw ||
                        split.channel == Channel::outlines || split.channel == Channel::faults;
@@ -65,7 +65,7 @@ std::string Viewer::drawnRemark() const {
                        full.height, pacedFramesPerSecond);
 }
 
-/// It may take seconds: while the world or the camera moves, only if it is asked for.
+/// It may take seconds, so while the world or the camera moves, it is drawn only on request.
 void Viewer::drawExact() {
     const bool isAtRest = paused && session_.drawnMoment() == momentBefore_;
     momentBefore_ = session_.drawnMoment();
@@ -110,7 +110,7 @@ std::string Viewer::stampOf(const SplitSettings& settings) const {
     if (settings.shown == Shown::a) halves = a;
     if (settings.shown == Shown::b) halves = b;
     if (settings.shown == Shown::difference) halves = fmt::format("{:g} x ({} - {})", settings.gain, b, a);
-    if (settings.shown == Shown::flip) halves = fmt::format("FLIP of {}, {} being the reference", a, b);
+    if (settings.shown == Shown::flip) halves = fmt::format("FLIP of {} with reference {}", a, b);
     std::string text = fmt::format("frame {}: {}", session_.drawnFrame(), halves);
     if (settings.shown == Shown::flip) return text;
     if (settings.channel != Channel::picture) text += fmt::format(", {}", channelChoices.wordOf(settings.channel));
@@ -143,7 +143,7 @@ PixelValue Viewer::valueAt(glm::vec2 place) {
             onePixel(half, pixel, alpha).r};
 }
 
-/// `pixel` from the lower left corner.
+/// `pixel` counts from the lower left corner.
 glm::vec3 Viewer::onePixel(Half half, glm::ivec2 pixel, const SplitSettings& settings) {
     const ImageSize size = session_.state().size;
     SplitSettings one = settings;

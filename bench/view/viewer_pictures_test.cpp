@@ -88,7 +88,7 @@ TEST_F(ViewerPictures, FlipIsThatOfTheMetric) {
     for (std::size_t i = 0; i < image.pixels.size(); ++i)
         for (int channel = 0; channel < 3; ++channel)
             ASSERT_NEAR(image.pixels[i][channel], pictures::encodeSrgb(colours.pixels[i][channel]), nearColour);
-    EXPECT_THAT(viewer_->stamp(), HasSubstr("frame 2: FLIP of A billboard, B octree_search being the reference"));
+    EXPECT_THAT(viewer_->stamp(), HasSubstr("frame 2: FLIP of A billboard with reference B octree_search"));
     const pictures::Image before = shown();
     viewer_->press(Key::period, false);
     viewer_->advance();

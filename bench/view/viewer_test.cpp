@@ -171,7 +171,7 @@ TEST_F(ViewerTest, DrawingIsPausedApartFromTheWorld) {
     EXPECT_EQ(viewer.session().drawnFrame(), 0);
     EXPECT_THAT(viewer.stamp(), HasSubstr("frame 0:"));
     EXPECT_EQ(draw::readBack(viewer.image()).pixels, first);
-    viewer.turnCamera(0.3, 0);  // is to be seen
+    viewer.turnCamera(0.3, 0);  // must be visible
     viewer.advance();
     EXPECT_EQ(viewer.session().drawnFrame(), 6);
     viewer.press(Key::n, false);
@@ -182,7 +182,7 @@ TEST_F(ViewerTest, DrawingIsPausedApartFromTheWorld) {
     viewer.press(Key::space, true);
     viewer.advance();
     EXPECT_EQ(viewer.session().drawnFrame(), viewer.session().frame());
-    viewer.press(Key::space, false);  // the other pause draws on
+    viewer.press(Key::space, false);  // pausing the world does not pause drawing
     viewer.press(Key::n, false);
     viewer.advance();
     EXPECT_EQ(viewer.session().drawnFrame(), 9);
@@ -207,7 +207,7 @@ TEST_F(ViewerTest, CostsAreThoseOfWhatAFrameDid) {
         whole += frame.methodsMs() + frame.window;
     }
     EXPECT_LE(whole, static_cast<double>(steadyNow() - start) / 1e6);
-    EXPECT_EQ(viewer.costs().back().window, 0);  // not over yet
+    EXPECT_EQ(viewer.costs().back().window, 0);  // has not ended yet
     for (std::size_t n = 0; n < 3; ++n) EXPECT_GT(viewer.costs()[n].window, 0) << n;
     viewer.paused = true;
     viewer.advance();
@@ -319,7 +319,7 @@ TEST_F(ViewerTest, SavesTheLightOfThePictureBesideIt) {
     viewer.advance(1e9);
     for (const Shown shown : {Shown::a, Shown::b, Shown::beside}) {
         viewer.split.shown = shown;
-        viewer.split.stops = 1;  // of the view alone
+        viewer.split.stops = 1;  // only of the view
         viewer.advance();
         viewer.press(Key::p, false);
         const pictures::Image light = pictures::readImage(saved() / "f000000.exr");

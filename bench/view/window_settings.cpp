@@ -30,7 +30,7 @@ ImageSize sizeOf(const files::TomlReader& table, const std::string& text) {
     }
 }
 
-/// Of the first unknown key.
+/// Message for the first unknown key; empty if there is none.
 std::string warningOf(const files::TomlReader& table) {
     for (const std::string& key : table.keys()) {
         if (std::ranges::find(keys, key) != keys.end()) continue;
@@ -53,7 +53,7 @@ std::filesystem::path windowSettingsFile() {
 
 std::string toToml(const WindowSettings& settings) {
     return fmt::format(
-        "# How the window of `dustbench view` looks; written when it is closed.\n"
+        "# Appearance of the window of `dustbench view`, written when it is closed.\n"
         "text_scale = {}\nsize = \"{}x{}\"\nshown = {}\ndivider = {}\npanels = {}\nkeep_pace = {}\n",
         files::csvNumber(settings.textScale), settings.size.width, settings.size.height,
         files::tomlText(shownChoices.wordOf(settings.shown)), settings.divider, settings.showsPanels,
@@ -66,7 +66,7 @@ SettingsKeeper::SettingsKeeper(std::filesystem::path file) : file_(std::move(fil
         if (!file_.empty() && std::filesystem::exists(file_, ignored)) read_ = parse();
     } catch (const InputError& error) {
         isReadable_ = false;
-        problem_ = fmt::format("{}; the window has its defaults, and the file stays as it is", error.what());
+        problem_ = fmt::format("{}; the window uses its defaults and leaves the file unchanged", error.what());
     }
     written_ = now_ = read_;
 }
@@ -92,7 +92,7 @@ void SettingsKeeper::keep(const WindowSettings& now) {
 
 void SettingsKeeper::finish() {
     if (file_.empty() || !isReadable_ || now_ == written_) return;
-    written_ = now_;  // another try only for another change
+    written_ = now_;  // try again only after another change
     std::error_code error;
     std::filesystem::create_directories(file_.parent_path(), error);
     if (error) files::failWriting(file_.parent_path(), error.value());

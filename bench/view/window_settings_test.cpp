@@ -102,7 +102,7 @@ TEST_F(Settings, AreWrittenWhenTheyHaveSettledOrAtTheEnd) {
     EXPECT_EQ(SettingsKeeper(file()).read(), now);
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::directory_iterator(file().parent_path())) files.push_back(entry.path());
-    EXPECT_EQ(files, std::vector{file()});  // nothing half-written beside it
+    EXPECT_EQ(files, std::vector{file()});  // no incomplete file next to it
 }
 
 TEST_F(Settings, ABrokenFileIsOneLineAndStays) {
@@ -112,7 +112,7 @@ TEST_F(Settings, ABrokenFileIsOneLineAndStays) {
         SettingsKeeper keeper(file());
         EXPECT_EQ(keeper.read(), WindowSettings()) << text;
         EXPECT_THAT(keeper.problem(), StartsWith(file().string() + ":1: ")) << text;
-        EXPECT_THAT(keeper.problem(), HasSubstr("the window has its defaults"));
+        EXPECT_THAT(keeper.problem(), HasSubstr("the window uses its defaults"));
         EXPECT_EQ(keeper.problem().find('\n'), std::string::npos);
         WindowSettings changed;
         changed.divider = 0.25f;

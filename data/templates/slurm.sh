@@ -6,14 +6,14 @@
 #SBATCH --time={{time}}
 #SBATCH --output=dustbench-{{name}}-%A_%a.log
 #
-# {{runs}} runs in {{shards}} shards, {{most}} in the largest. The time limit is what they may take at most: {{timeout}} s a run and
+# {{runs}} runs in {{shards}} shards, {{most}} in the largest. The time limit is the maximum duration of a shard: {{timeout}} s a run and
 # {{around}} s around it (--timeout), {{extra}} s a shard.
 #
 #     bash THIS_FILE      submits this array, and after it a job that merges the shards into the results folder
-#     sbatch THIS_FILE    submits the array alone
+#     sbatch THIS_FILE    submits only the array
 #
-# Shards that were stopped go on when this is done again. After the merge, `dustbench suite` with the same options and
-# --out prints the tables; it finds nothing to do. All nodes must see these paths:
+# To resume shards that were stopped, submit again. After the merge, `dustbench suite` with the same options and
+# --out prints the tables without measuring anything. All nodes must see these paths:
 dustbench={{program}}
 folder={{folder}}
 out={{out}}

@@ -112,19 +112,18 @@ MethodInfo describe() {
     info.takesLights = true;
     info.parameters
         .choice("sort", draw::SortKind::radix, draw::sortKinds,
-                "order in which puffs are blended: far to near by the paper's quicksort or by a radix sort, or as they "
-                "come")
+                "order in which puffs are blended: far to near by the paper's quicksort or a radix sort, or unsorted")
         .choice(
             "puff", Puff::gaussian, puffs,
-            "what a quad shows: the optical model's Gaussian, one picture, one of several, or an animation over life")
-        .boolean("soft", false, "let puffs end softly at the scene behind them instead of cutting them off")
+            "image on a quad: the optical model's Gaussian, one picture, one of several, or an animation over its life")
+        .boolean("soft", false, "fade puffs out where they meet the scene instead of cutting them off")
         .choice("facing", draw::Facing::viewpoint, draw::facings,
-                "turn each quad to the eye, or all of them parallel to the picture")
+                "turn each quad towards the camera's position, or keep all quads parallel to the image plane")
         .choice("alpha", Alpha::optical, alphas,
-                "what a puff's picture is: optical depth, or, as in the paper, a factor of the puff's opacity "
-                "(puff=gaussian then is a smoothly faded circle)");
+                "meaning of a puff's picture: optical depth, or, as in the paper, a factor on the puff's opacity "
+                "(puff=gaussian is then a circle that fades smoothly)");
     draw::declareOpacity(info.parameters);
-    info.parameters.choice("mode", "fixed", {"fixed", "paper"}, "drawn by the optical model, or as the paper draws")
+    info.parameters.choice("mode", "fixed", {"fixed", "paper"}, "draw by the optical model, or as in the paper")
         .preset("mode", "paper", {{"sort", "quicksort"}, {"puff", "texture"}, {"alpha", "plain"}, {"opacity", "age"}});
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         Settings settings;

@@ -2,8 +2,7 @@
 // and puffs.
 //
 // The bare loop binds, draws and waits; its buffer is written once, in order. Before timing, the two pictures are
-// compared with each other, and their coverage with that of the puffs, because quads that fail the depth test are cheap
-// to draw.
+// compared. Their coverage is checked against that of the puffs, because quads that fail the depth test are cheap.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -108,7 +107,7 @@ void verify(Workload& work, const pictures::Image& bare, const pictures::Image& 
     }
     for (const glm::vec4& pixel : bare.pixels) got -= std::log1p(-static_cast<double>(pixel.a));
     if (std::abs(got / expected - 1) > 0.05)
-        throw std::runtime_error("the picture holds " + std::to_string(got / expected) + " of the puffs' mass");
+        throw std::runtime_error("the picture shows " + std::to_string(got / expected) + " of the puffs' mass");
 }
 
 double millisecondsOf(auto& loop) {

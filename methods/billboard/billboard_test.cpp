@@ -67,7 +67,7 @@ TEST(Billboard, ShowsTheTransmittanceOfTheWholeCloud) {
                                                              static_cast<double>(moment.dust.radius[i]), b));
             }
             const double difference = static_cast<double>(image.at(x, y).a) + std::expm1(-depth);
-            EXPECT_NEAR(difference, 0, 0.02);  // the quads' corners: each cuts off up to τ·exp(−9/2)
+            EXPECT_NEAR(difference, 0, 0.02);  // each quad cuts off up to τ·exp(−9/2) at its corners
             squares += difference * difference;
         }
     EXPECT_LT(std::sqrt(squares / static_cast<double>(image.pixels.size())), 2e-3);

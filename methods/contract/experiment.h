@@ -1,6 +1,7 @@
-// What a folder under methods/ offers besides a method: experiments, which test claims of papers that no run can test,
-// and tools, which are commands of their own. Each is one file, `<id>_experiment.cpp` or `<id>_tool.cpp`, with
-// `ExperimentInfo describe()` or `ToolInfo describe()` in the namespace dustbench::<folder>::<id>.
+// Experiments and tools, which a folder under methods/ may contain in addition to a method. Experiments test claims
+// that runs cannot test; tools add commands to `dustbench`. Each is one file, `<id>_experiment.cpp` or
+// `<id>_tool.cpp`, with `ExperimentInfo describe()` or `ToolInfo describe()` in the namespace
+// dustbench::<folder>::<id>.
 //
 // Threads: the current oneTBB arena; findings do not depend on the number of threads.
 #pragma once
@@ -24,7 +25,7 @@ struct Finding {
     double value = 0;
     double low = 0, high = 0;
     std::int64_t samples = 0;  ///< draws, steps, pixels or births behind the value
-    std::string note{};        ///< what a reader must know, such as what was left out; may be empty
+    std::string note{};        ///< caveats for the reader, such as omitted cases; may be empty
 };
 
 /// A scene with its vehicle, drive and dust, set up as for a run.
@@ -43,7 +44,7 @@ class DUSTBENCH_API ExperimentContext {
     virtual ~ExperimentContext();
     /// The only source of randomness.
     [[nodiscard]] virtual std::uint64_t seed() const = 0;
-    /// True if the short form is asked for: seconds instead of minutes.
+    /// True for a quick run: seconds instead of minutes.
     [[nodiscard]] virtual bool quick() const = 0;
     /// Created on first call. Throws InputError if OpenGL is unavailable.
     [[nodiscard]] virtual gpu::Device& device() = 0;

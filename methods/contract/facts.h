@@ -1,5 +1,5 @@
-// Facts: values that a method reports besides times, memory and pictures. A method declares each once, with unit and
-// meaning.
+// Facts: values that a method reports in addition to times, memory and pictures. A method declares each once, with its
+// unit and meaning.
 //
 // Each declared fact becomes a column of summary.csv, a row of `dustbench list metrics` and a row of reports/SCHEMA.md.
 #pragma once
@@ -18,7 +18,7 @@ namespace dustbench {
 /// Which value of a fact is kept: the maximum over all recorded frames, or the value after the last one.
 enum class FactOver { maximumOfFrames, lastFrame };
 
-/// A run in which a fact lies outside says so, and no claim uses it: the method did not show what was asked of it.
+/// A run with a fact outside of this range is reported, and claims ignore it: the method did not do what was asked.
 struct ValidRange {
     double minimum = -std::numeric_limits<double>::infinity();
     double maximum = std::numeric_limits<double>::infinity();

@@ -33,22 +33,22 @@ struct Frame {
     const StageClock& clock;         ///< times the method's stages
 };
 
-/// Settings of a run besides the method's parameters.
+/// Settings of a run other than the method's parameters.
 struct RunSetup {
     std::uint64_t seed = 1;      ///< seed of the run: the only source of randomness for a method
     std::int64_t particles = 0;  ///< requested load (`particles=N`); 0: set by the vehicle's speed
 };
 
-/// A text that a run keeps among its results.
+/// A text file that a run saves with its results.
 struct KeptFile {
     std::string name;  ///< `systems.toml`
     std::string text;
 };
 
-/// Most lights that a method may give.
+/// Maximum number of lights that a method may return.
 inline constexpr std::size_t maximumPointLights = 64;
 
-/// One way to show the cloud. `prepare` is called once, then `update` and `draw` each frame, on the thread that owns
+/// One way to draw the cloud. `prepare` is called once, then `update` and `draw` each frame, on the thread that owns
 /// the OpenGL context.
 class DUSTBENCH_API Method {
  public:
@@ -59,8 +59,8 @@ class DUSTBENCH_API Method {
     /// Does all work that depends on the new state: build, sort, solve, upload. Skipped in the preroll unless
     /// `wantsPreroll`.
     virtual void update(const Frame& frame) = 0;
-    /// Draws premultiplied linear colour and alpha into `layer`: RGBA32F, cleared to 0, with the opaque scene's depth
-    /// beside it. Called once per frame, and again for untimed pictures of the same state; repeated calls must draw the
+    /// Draws premultiplied linear colour and alpha into `layer`: RGBA32F, cleared to 0, with the depth of the opaque
+    /// scene. Called once per frame, and again for untimed pictures of the same state; repeated calls must draw the
     /// same picture.
     virtual void draw(const Frame& frame, gpu::Layer& layer) = 0;
 
@@ -73,11 +73,11 @@ class DUSTBENCH_API Method {
     [[nodiscard]] virtual MemoryReport memory() const { return {}; }
     /// Number of primitives (billboards, voxels, rays …) that the last `draw` submitted to the GPU.
     [[nodiscard]] virtual std::int64_t primitives() const { return 0; }
-    /// Lights of the state after `update` that light the opaque scene: of a fire, say. At most maximumPointLights.
+    /// Lights that the state after `update` casts on the opaque scene, such as a fire's. At most maximumPointLights.
     [[nodiscard]] virtual std::vector<scene::PointLight> lights() const { return {}; }
     /// Hash of the method's own simulation; empty if it only shows the shared dust.
     [[nodiscard]] virtual std::optional<std::uint64_t> stateHash() const { return std::nullopt; }
-    /// Files that the run keeps beside its run.json. Asked once, after the last frame.
+    /// Files to save next to the run's run.json. Called once, after the last frame.
     [[nodiscard]] virtual std::vector<KeptFile> files() const { return {}; }
     /// True if the method's own simulation must also run during preroll and warm-up.
     [[nodiscard]] virtual bool wantsPreroll() const { return false; }
@@ -91,9 +91,9 @@ struct MethodInfo {
     ParameterSet parameters;
     std::vector<FactInfo> facts;  ///< facts that `Method::report` reports
     bool drawsPanels = false;     ///< draws the scene's reliefs itself; for other methods the harness draws them flat
-    bool takesLights = false;     ///< shows dust where the scene's lights light it (Lights::onDust)
+    bool takesLights = false;     ///< can draw dust lit by the scene's lights (Lights::onDust)
     std::function<std::unique_ptr<Method>(const ParameterValues&)> create;
-    /// Returns why the method cannot take this scene (`needs a vehicle`), or an empty text if it can. Unset: takes
+    /// Returns why the method cannot draw this scene (`needs a vehicle`), or an empty text if it can. Unset: draws
     /// every scene.
     std::function<std::string(const scene::Scene&)> cannotTake;
     std::string id{};       ///< the folder's name; set by the registry

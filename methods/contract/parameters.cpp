@@ -57,7 +57,7 @@ std::optional<Change> parseChange(std::string_view text) {
     return change;
 }
 
-/// Changes separated by `;`, by time.
+/// Changes separated by `;`, sorted by time.
 std::optional<std::vector<Change>> parseChanges(std::string_view text) {
     std::vector<Change> changes;
     while (!text.empty()) {
@@ -71,7 +71,7 @@ std::optional<std::vector<Change>> parseChanges(std::string_view text) {
     return changes;
 }
 
-/// Of extensions separated by `|`.
+/// True if `text` ends in one of the extensions, which are separated by `|`.
 bool endsInOneOf(std::string_view extensions, std::string_view text) {
     for (;;) {
         const std::size_t end = extensions.find('|');
@@ -223,7 +223,7 @@ ParameterSet& ParameterSet::preset(std::string_view name, std::string_view word,
                                    const std::vector<std::pair<std::string, std::string>>& defaults) {
     const auto choice = std::ranges::find(parameters_, name, &Parameter::name);
     if (choice == parameters_.end() || std::ranges::find(choice->choices, word) == choice->choices.end())
-        throw std::logic_error("preset " + std::string(name) + "=" + std::string(word) + ": there is no such choice");
+        throw std::logic_error("preset " + std::string(name) + "=" + std::string(word) + ": no such choice");
     Preset preset{std::string(name), std::string(word), {}};
     std::string listed;
     for (const auto& [other, text] : defaults) {
@@ -235,7 +235,7 @@ ParameterSet& ParameterSet::preset(std::string_view name, std::string_view word,
         preset.defaults.emplace_back(other, *canonical);
         listed.append(listed.empty() ? " (" : ", ").append(other + "=" + *canonical);
     }
-    choice->help += "; " + preset.word + " has other defaults" + listed + ")";
+    choice->help += "; " + preset.word + " sets other defaults" + listed + ")";
     presets_.push_back(std::move(preset));
     return *this;
 }

@@ -19,10 +19,10 @@ namespace dustbench {
 
 enum class ParameterType { integer, real, boolean, choice, cells, changes };
 
-/// Something that changes while a run goes on: in every frame k ≥ 0 with k·step ≥ `seconds` (to a thousandth of a
-/// step), `name` has `value`. What names and values mean is up to the method.
+/// A change during a run: in every frame k ≥ 0 with k·step ≥ `seconds` (to a thousandth of a step), `name` has `value`.
+/// The method defines what names and values mean.
 struct Change {
-    double seconds;  ///< from the begin of frame 0 on; 0 or more
+    double seconds;  ///< since the start of frame 0; 0 or more
     std::string name, value;
 
     bool operator==(const Change&) const = default;
@@ -39,14 +39,14 @@ struct DUSTBENCH_API Parameter {
     std::vector<std::string> choices;
     std::string unit;
     std::string help;
-    /// For a choice among data files, or their paths: the folder in data, and the extension, or several: `.vdb|.vti`.
+    /// For a data file: its folder in the data, and its extension, or several: `.vdb|.vti`.
     std::string dataFolder{}, fileExtension{};
 
     /// The allowed values as text: `integer 0..1000000`, `quicksort|radix|none`.
     [[nodiscard]] std::string allowed() const;
 };
 
-/// Other defaults, for as long as the choice `parameter` has the value `word`.
+/// Other defaults, which apply while the choice `parameter` has the value `word`.
 struct Preset {
     std::string parameter, word;
     std::vector<std::pair<std::string, std::string>> defaults;  ///< name and canonical text
@@ -67,17 +67,17 @@ class DUSTBENCH_API ParameterSet {
                          const Choices<Enumeration>& choices, std::string help) {
         return choice(std::move(name), std::string(choices.wordOf(initial)), choices.words(), std::move(help));
     }
-    /// A name, for `data/<folder>/<name><extension>`, or a file's path, known by a '/' or its extension.
+    /// A name, which stands for `data/<folder>/<name><extension>`, or a path, recognised by a '/' or its extension.
     ParameterSet& dataFile(std::string name, std::string initial, std::string folder, std::string extension,
                            std::vector<std::string> names, std::string help);
     /// The number of cells of a grid, `128x64x64`.
     ParameterSet& cells(std::string name, std::string initial, std::int64_t minimum, std::int64_t maximum,
                         std::string help);
-    /// Changes while the run goes on, `2.5s:NAME=VALUE;4s:…`; none by default. The command line's `--at` sets it.
+    /// Changes during the run, `2.5s:NAME=VALUE;4s:…`; none by default. The command line's `--at` sets it.
     ParameterSet& changes(std::string name, std::string help);
 
-    /// Makes `word` of the choice `name` a preset: other parameters, declared before, have other defaults with it. A
-    /// value that is set explicitly wins. The choice's help lists the defaults.
+    /// Makes `word` of the choice `name` a preset, which changes the defaults of parameters declared earlier. A value
+    /// that is set explicitly wins. The choice's help lists the defaults.
     ParameterSet& preset(std::string_view name, std::string_view word,
                          const std::vector<std::pair<std::string, std::string>>& defaults);
 
@@ -109,7 +109,7 @@ class DUSTBENCH_API ParameterValues {
     /// Also for data files.
     [[nodiscard]] const std::string& choice(std::string_view name) const;
     [[nodiscard]] std::array<int, 3> cells(std::string_view name) const;
-    /// By time; those of one time in the given order.
+    /// Sorted by time; changes at the same time keep the given order.
     [[nodiscard]] std::vector<Change> changes(std::string_view name) const;
     /// The value that the chosen word has in the table it was declared with.
     template <typename Enumeration>

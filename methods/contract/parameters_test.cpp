@@ -50,19 +50,19 @@ TEST(Parameters, TakeTheDefaultsOfAPresetUnlessTheyAreSet) {
     values.set("mode", "fixed");
     EXPECT_EQ(values.integer("depth"), 7);
     EXPECT_EQ(values.choice("sort"), "none");
-    EXPECT_EQ(withPreset().find("mode")->help, "which; paper has other defaults (sort=quicksort, depth=9)");
+    EXPECT_EQ(withPreset().find("mode")->help, "which; paper sets other defaults (sort=quicksort, depth=9)");
 }
 
 TEST(Parameters, TakeAPresetWhateverTheOrder) {
     ParameterValues first(withPreset()), last(withPreset());
     first.set("mode", "paper");
-    first.set("depth", "7");  // the default of the other mode, but said
+    first.set("depth", "7");  // the default of the other mode, but set explicitly
     last.set("depth", "7");
     last.set("mode", "paper");
     EXPECT_EQ(first.canonical(), last.canonical());
     EXPECT_EQ(first.integer("depth"), 7);
     EXPECT_EQ(first.choice("sort"), "quicksort");
-    // The whole canonical form, read again, gives itself.
+    // The canonical form, read again, is unchanged.
     ParameterValues again(withPreset());
     for (const auto& [name, text] : first.canonical()) again.set(name, text);
     EXPECT_EQ(again.canonical(), first.canonical());

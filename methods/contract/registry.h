@@ -13,19 +13,19 @@ namespace dustbench {
 /// Sorted by id.
 [[nodiscard]] const std::vector<MethodInfo>& methods();
 
-/// Adds a method from outside, whose `id` and `library` are set. References into methods() become invalid. Throws
+/// Adds a method from a library, with `id` and `library` set. References into methods() become invalid. Throws
 /// InputError if the id is taken.
 void addMethod(MethodInfo info);
-/// A method of this id is outside, and cannot be taken: for the message of findMethod.
+/// Records that the library of this method was not loaded, for the message of findMethod.
 void noteRefusedMethod(const std::string& id, const std::string& library, const std::string& why);
 
-/// A method's library is noted as an input of the run. Throws InputError with the nearest name.
+/// Notes the method's library as an input of the run. Throws InputError, which suggests the nearest name.
 [[nodiscard]] const MethodInfo& findMethod(std::string_view id);
 
 /// Sorted by id.
 [[nodiscard]] const std::vector<ExperimentInfo>& experiments();
 
-/// Throws InputError with the nearest name.
+/// Throws InputError, which suggests the nearest name.
 [[nodiscard]] const ExperimentInfo& findExperiment(std::string_view id);
 
 /// Sorted by id.

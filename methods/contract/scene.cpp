@@ -38,7 +38,7 @@ float phaseFactor(float asymmetry, float cosine) {
 }
 
 glm::vec3 dustLight(const Scene& scene, float transmittance, float cosine) {
-    // The light of dustColour(), of which the share T of the sun's arrives and leaves by the phase function.
+    // The light of dustColour(), with the sun's part scaled by T and by the phase function.
     const glm::vec3 sun = scene.lights.sun / 4.0f, ambient = scene.lights.ambient;
     const glm::vec3 seen = ambient + phaseFactor(scene.dustAsymmetry, cosine) * transmittance * sun;
     const glm::vec3 all = ambient + sun;
@@ -58,7 +58,7 @@ glm::mat4 wheelToWorld(const WheelState& wheel, const glm::dvec3& bodyUp, bool r
     const double angle = std::remainder(wheel.spinAngle, 2 * 3.14159265358979323846);
     const double cosine = std::cos(angle);
     const double sine = std::sin(angle);
-    // The mesh's outer face looks to +Z. Left wheels are turned half round the vertical and so spin the other way.
+    // The mesh's outer face looks to +Z. Left wheels are turned by 180° about the vertical, so they spin the other way.
     const double side = rightSide ? 1 : -1;
     glm::dmat4 matrix(1);
     matrix[0] = glm::dvec4(side * (cosine * wheel.forward - sine * up), 0);

@@ -33,7 +33,7 @@ struct Lights {
 struct PointLight {
     glm::dvec3 position{0};      ///< world, m
     glm::vec3 intensity{0};      ///< m², linear RGB: what a white surface facing it at 1 m reads
-    float radiusMetres = 0.05f;  ///< nearer than this it is no brighter; above 0
+    float radiusMetres = 0.05f;  ///< closer than this it does not get brighter; above 0
 };
 
 struct VehicleModel {
@@ -45,7 +45,7 @@ struct VehicleModel {
 /// The texels of a relief as they are at the start of a run. Row 0 is the lowest.
 struct Relief {
     int columns = 0, rows = 0;
-    std::vector<float> depth;       ///< 0 at the face, 1 at the panel's greatest depth
+    std::vector<float> depth;       ///< 0 at the face, 1 at the panel's full depth
     std::vector<glm::vec3> colour;  ///< linear RGB, 0..1
 };
 
@@ -69,8 +69,8 @@ struct Scene {
     Terrain terrain;
     Lights lights;
     glm::vec3 wind{0};                  ///< m/s, world
-    std::vector<Solid> solids;          ///< besides the vehicle
-    std::vector<SolidPose> solidPoses;  ///< of `solids`; of those that move, when the drive begins
+    std::vector<Solid> solids;          ///< without the vehicle
+    std::vector<SolidPose> solidPoses;  ///< of `solids`; for moving ones, at the start of the drive
     std::vector<Panel> panels;
     std::optional<VehicleModel> vehicle;
     glm::vec3 dustAlbedo{0.64f, 0.54f, 0.42f};
@@ -80,12 +80,12 @@ struct Scene {
 struct SceneState {
     double timeSeconds = 0;
     VehicleState vehicle;
-    std::vector<SolidNow> solids{};  ///< in the order of Scene::solids; empty where all of them are still
+    std::vector<SolidNow> solids{};  ///< in the order of Scene::solids; empty if none of them moves
 };
 
 /// Whether any of the scene's solids moves or deforms.
 [[nodiscard]] DUSTBENCH_API bool anySolidMoves(const Scene& scene);
-/// The solid of this number at this moment.
+/// The pose of a solid, by its number, at this moment.
 [[nodiscard]] DUSTBENCH_API const SolidPose& solidPose(const Scene& scene, const SceneState& state, std::size_t solid);
 [[nodiscard]] DUSTBENCH_API const Mesh& solidMesh(const Scene& scene, const SceneState& state, std::size_t solid);
 
@@ -95,13 +95,13 @@ struct SceneState {
 /// The colour (linear RGB) that a cloud of dust shows: its albedo, lit by sky and sun from all sides.
 [[nodiscard]] DUSTBENCH_API glm::vec3 dustColour(const Scene& scene);
 
-/// How much light is scattered towards the eye, relative to a medium that scatters equally in all directions. `cosine`:
-/// of the angle between the direction from the eye and that to the sun.
+/// How much light is scattered towards the eye, relative to a medium that scatters equally in all directions. `cosine`
+/// is that of the angle between the direction from the eye and the direction to the sun.
 /// Source: Henyey1941, Eq. 2.
 [[nodiscard]] DUSTBENCH_API float phaseFactor(float asymmetry, float cosine);
 
-/// What a colour of dust is multiplied by where lights.onDust: single scattering of the sunlight that arrives, a share
-/// `transmittance` of it, and ambient light, which arrives everywhere. 1 where all arrives and g is 0.
+/// The factor on a colour of dust if lights.onDust: single scattering of the share `transmittance` of the sunlight, and
+/// ambient light, which reaches every point. 1 if all sunlight arrives and g is 0.
 [[nodiscard]] DUSTBENCH_API glm::vec3 dustLight(const Scene& scene, float transmittance, float cosine);
 
 /// World poses of the vehicle's body and of its four wheels (order of `Wheel`).

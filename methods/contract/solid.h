@@ -22,7 +22,7 @@ struct DUSTBENCH_API Mesh {
     void append(const Mesh& other, const glm::mat4& transform);
 };
 
-/// What of a solid changes with time.
+/// Which part of a solid changes with time.
 enum class SolidMotion {
     still,    ///< nothing
     moves,    ///< its pose
@@ -32,7 +32,7 @@ enum class SolidMotion {
 /// The constant part of a solid: its name and its shape in its own frame.
 struct Solid {
     std::string name;
-    std::shared_ptr<const Mesh> mesh;  ///< of one that deforms: at rest
+    std::shared_ptr<const Mesh> mesh;  ///< for a deforming solid: at rest
     SolidMotion motion = SolidMotion::still;
 };
 
@@ -43,16 +43,16 @@ struct SolidPose {
     glm::vec3 angularVelocity{0};  ///< about the object's origin
 };
 
-/// The shape of a solid that deforms, at one moment.
+/// The shape of a deforming solid at one moment.
 struct DeformedMesh {
-    Mesh mesh;                          ///< as many vertices, and the same triangles, as Solid::mesh
+    Mesh mesh;                          ///< vertices in the same number, same triangles as Solid::mesh
     std::vector<glm::vec3> velocities;  ///< of the positions, in the object's frame
 };
 
 /// A solid at one moment.
 struct SolidNow {
     SolidPose pose;
-    std::shared_ptr<const DeformedMesh> shape{};  ///< of one that deforms; null: it is at rest
+    std::shared_ptr<const DeformedMesh> shape{};  ///< for a deforming solid; null: at rest
 };
 
 }  // namespace dustbench::scene

@@ -29,7 +29,7 @@ Terrain::Terrain(std::vector<float> heights, int columns, int rows, float spacin
     : heights_(std::move(heights)), columns_(columns), rows_(rows), spacing_(spacingMetres), origin_(originX, originZ) {
     if (columns < 2 || rows < 2 ||
         heights_.size() != static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows))
-        throw std::invalid_argument("Terrain: columns and rows must be 2 or more, with as many heights as they say");
+        throw std::invalid_argument("Terrain: columns and rows must be 2 or more, with columns x rows heights");
     if (!(spacingMetres > 0)) throw std::invalid_argument("Terrain: the spacing must be positive");
 }
 

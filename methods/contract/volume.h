@@ -1,5 +1,5 @@
-// A method's representation of the cloud: puffs, octree voxels or grid cells, and of surfaces that it changes; never
-// pictures.
+// A method's representation of the cloud (puffs, octree voxels or grid cells) and of the surfaces that it changes;
+// never pictures.
 //
 // Units: metres, metres per second, seconds, extinction per metre. Frame: world. All data passed on are valid during
 // the call only.
@@ -71,11 +71,11 @@ struct GridVolume {
 
 /// A surface that a method changes: a lattice of points, joined to quadrilaterals.
 struct SurfaceVolume {
-    std::string_view name;                ///< of what it is in the scene, such as a panel; unique
+    std::string_view name;                ///< of the object in the scene, such as a panel; unique
     int columns, rows;                    ///< of the lattice, 2 or more each
     std::span<const glm::vec3> position;  ///< row by row; seen from its face, columns to the right and rows upwards
     std::span<const glm::vec3> colour;    ///< linear RGB
-    std::span<const float> height;        ///< as in files of reliefs: 1 at the face, 0 at the greatest depth
+    std::span<const float> height;        ///< as in relief files: 1 at the face, 0 at full depth
     std::span<const GridField> fields;    ///< further quantities of the points
 };
 

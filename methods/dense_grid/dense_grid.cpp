@@ -1,4 +1,4 @@
-// Dust in a dense grid of voxels: what the octree saves.
+// Dust in a dense grid of voxels, which shows the memory that an octree saves.
 #include <fmt/format.h>
 
 #include "methods/contract/errors.h"
@@ -11,7 +11,7 @@ namespace {
 constexpr Choices<octree::Render> renders{
     {"billboards", octree::Render::billboards}, {"circles", octree::Render::circles}, {"cubes", octree::Render::cubes}};
 
-/// Any policy has a depth that it allows.
+/// With this limit, at least the minimum depth is allowed for every policy.
 constexpr auto smallestLimit =
     static_cast<std::int64_t>(gridBytes(octree::minimumDepth, octree::OpacityPolicy::accumulate));
 
@@ -24,8 +24,7 @@ void requireWithin(std::int64_t limitBytes, const octree::OctreeSettings& settin
     while (gridBytes(deepest, settings.policy) > allowed) --deepest;
     throw InputError(
         fmt::format("parameter depth: got {}, a grid of {}³ cells of {} bytes = {} bytes; allowed: {} bytes "
-                    "(limit_bytes), depth {} or "
-                    "less",
+                    "(limit_bytes), which is depth {} or less",
                     settings.depth, octree::Lattice::cellsPerEdge(settings.depth), cellBytes(settings.policy), bytes,
                     allowed, deepest));
 }
@@ -50,24 +49,24 @@ octree::DustSettings settingsOf(const ParameterValues& values) {
 MethodInfo describe() {
     MethodInfo info;
     info.title = "Dense grid dust";
-    info.summary = "The voxels of an octree's finest level in a grid that holds every cell of the world, empty or not.";
+    info.summary = "Voxels as in an octree's finest level, stored in a grid of all cells, empty ones included.";
     info.source = "Carr2006";
     info.takesLights = true;
     info.parameters
         .integer("depth", 8, octree::minimumDepth, octree::maximumDepth, "levels",
-                 "halvings of the world's edge: 2^depth cells along each axis")
+                 "number of times the world's edge is halved: 2^depth cells along each axis")
         .choice("policy", octree::OpacityPolicy::max, octree::opacityPolicies,
-                "several particles in a voxel: the most opaque one, the youngest one, or the sum of their masses")
+                "voxels with several particles show the most opaque one, the youngest one, or the sum of their masses")
         .choice("render", octree::Render::billboards, renders,
-                "a voxel as a smoothly faded circle of its optical depth, as the paper's plain circle, or as six faces")
+                "draw a voxel as a smoothly faded circle of its optical depth, as a plain circle (paper), or as a cube")
         .choice("sort", draw::SortKind::radix, draw::sortKinds,
-                "order in which voxels are blended: far to near by the paper's quicksort or by a radix sort, or as the "
-                "grid gives them")
+                "order in which voxels are blended: far to near by the paper's quicksort or by a radix sort, or in the "
+                "order of the grid")
         .real("world_edge", 128, 1, 1e5, "m", "edge of the grid, a cube that follows the vehicle")
         .integer("limit_bytes", std::int64_t{2} << 30, smallestLimit, std::int64_t{1} << 40, "bytes",
-                 "that the grid may take; a deeper one is refused");
+                 "maximum size of the grid; a depth that needs more is refused");
     draw::declareOpacity(info.parameters);
-    info.parameters.choice("mode", "fixed", {"fixed", "paper"}, "shown by the optical model, or drawn as in the paper")
+    info.parameters.choice("mode", "fixed", {"fixed", "paper"}, "draw by the optical model, or as in the paper")
         .preset("mode", "paper", {{"opacity", "age"}, {"render", "circles"}, {"sort", "quicksort"}});
     octree::declareDustFacts(info);
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {

@@ -43,7 +43,7 @@ TEST(DenseGrid, HasTheVoxelsOfAnOctreesFinestLevel) {
     std::mt19937 random(2004);
     MemoryLedger ledger;
     ParticleStore store(ledger);
-    GridBuilder builder(ledger);  // kept over all sets: nothing of the last one may be left
+    GridBuilder builder(ledger);  // reused for all sets: nothing may remain of the previous one
     octree::Octree tree(ledger);
     for (int set = 0; set < 300; ++set) {
         OctreeSettings settings;

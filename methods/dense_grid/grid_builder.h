@@ -1,7 +1,7 @@
-// A dense grid in place of the octree: every cell of the world's cube exists in memory, whether it holds dust or not.
+// A dense grid instead of the octree: every cell of the world's cube exists in memory, with or without dust.
 //
-// Finds the voxels that an octree has at its finest level (levels = 1). Cells lie in the order of their Morton codes,
-// so that the traversal lists voxels in the octree's order.
+// Finds the voxels that an octree has at its finest level (levels = 1). Cells are stored in Morton order, so that the
+// traversal lists voxels in the octree's order.
 //
 // Owns: the cells, booked on a ledger: 8^depth of `cellBytes`. Threads: one.
 // Source: Carr2006, 2.3 (a volume buffer, O(n³) of memory).

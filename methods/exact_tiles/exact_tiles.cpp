@@ -15,7 +15,7 @@
 namespace dustbench::exact_tiles {
 namespace {
 
-/// Steps of an eighth of the next power of two: seldom grown, and the same whatever was held before.
+/// Rounds up to eighths of the next power of two: grows rarely, and does not depend on the previous size.
 std::size_t capacityFor(std::size_t bytes) {
     const std::size_t step = std::max<std::size_t>(std::bit_ceil(bytes) / 8, 64);
     return (bytes + step - 1) / step * step;
@@ -61,7 +61,7 @@ bool ExactTiles::isListedFor(const scene::View& view) const {
 
 gpu::Program& ExactTiles::program(bool oneColour) {
     std::optional<gpu::Program>& made = oneColour ? sum_ : march_;
-    // Lanes of software read memory one by one; those of a GPU together, and it needs many of them.
+    // A software renderer's lanes read memory one by one, so several rows share a read. A GPU needs many invocations.
     const int rows = settings_.rowsAtOnce > 0 ? settings_.rowsAtOnce : device_->isSoftware() ? tilePixels : 1;
     const std::map<std::string, std::string> definitions{{"ROWS", std::to_string(rows)}};
     if (!made)
@@ -74,7 +74,7 @@ gpu::Program& ExactTiles::program(bool oneColour) {
 }
 
 void ExactTiles::draw(const Frame& frame, gpu::Layer& layer) {
-    // A viewer may turn the camera of a moment that it has updated before.
+    // A viewer may turn the camera without an update.
     if (!isListedFor(frame.view)) update(frame);
     if (tiles_.puffs().empty()) return;
     const double pixelSlope = 2 * std::tan(frame.view.camera.verticalFieldOfView / 2) / frame.view.height;
@@ -104,16 +104,15 @@ MethodInfo describe() {
     MethodInfo info;
     info.title = "Exact tiles";
     info.summary =
-        "The exact picture of the dust: closed-form optical depths of each tile's puffs, summed in a compute shader.";
+        "The ground truth on the GPU: a compute shader sums the closed-form optical depths of each tile's puffs.";
     info.source = "Olsson2011";
     info.takesLights = true;
     info.parameters
         .real("tolerated_depth", 1e-6, 1e-9, 0.01, "",
-              "optical depth of a pixel that may be neglected beyond the edges of puffs; more is faster")
-        .real(
-            "slab", 0.5, 0.05, 4, "deviations",
-            "length of the steps through dust of several colours, by the standard deviation of the narrowest puff of a "
-            "tile; the error is of second order in it");
+              "optical depth per pixel that may be neglected beyond the edges of puffs; larger is faster")
+        .real("slab", 0.5, 0.05, 4, "deviations",
+              "step length through dust of several colours, in standard deviations of the narrowest puff of a tile; "
+              "the error grows with its square");
     info.create = [](const ParameterValues& values) {
         return std::make_unique<ExactTiles>(
             Settings{.toleratedDepth = values.real("tolerated_depth"), .slabDeviations = values.real("slab")});

@@ -1,12 +1,12 @@
-// The exact picture of the shared dust, drawn on the GPU: the truth as a method.
+// The ground truth of the shared dust, drawn on the GPU as a method.
 //
-// For each tile of 8 × 8 pixels there is a list of the puffs that reach into it. A compute shader sums their optical
-// depths along each pixel's ray by the closed form of the optical model (maths/transmittance.h), cut by eye and scene:
-// no quads, no sorting of what is seen, no voxels, no steps. Dust of several colours is marched through in slabs whose
-// depths are exact and whose colours are evenly mixed; halving the slabs divides that error by four.
+// Each tile of 8 × 8 pixels has a list of the puffs that reach into it. A compute shader sums their optical depths
+// along each pixel's ray by the closed form of the optical model (maths/transmittance.h), limited by eye and scene,
+// without quads, sorting, voxels or steps. Dust of several colours is marched through in slabs whose depths are exact
+// and whose colours are evenly mixed; halving the slabs divides the error by four.
 //
 // Units: metres. Colours: linear RGB, premultiplied.
-// Source: Olsson2011, 3. Departs: lists of puffs in place of lists of lights.
+// Source: Olsson2011, 3. Departs: lists of puffs instead of lists of lights.
 #pragma once
 
 #include <optional>
@@ -19,9 +19,9 @@
 namespace dustbench::exact_tiles {
 
 struct Settings {
-    double toleratedDepth = 1e-6;  ///< neglected of a pixel's depth, at most
-    double slabDeviations = 0.5;   ///< length of a step through several colours, by the smallest s in a tile
-    int rowsAtOnce = 0;            ///< pixels that an invocation sums: 1, 2, 4 or 8; 0: as suits the device
+    double toleratedDepth = 1e-6;  ///< maximum optical depth neglected per pixel
+    double slabDeviations = 0.5;   ///< step length through several colours, in units of the smallest s in a tile
+    int rowsAtOnce = 0;            ///< pixels that an invocation sums: 1, 2, 4 or 8; 0: chosen for the device
 };
 
 class ExactTiles final : public Method {
@@ -45,7 +45,7 @@ class ExactTiles final : public Method {
     gpu::Device* device_ = nullptr;
     gpu::Buffer puffs_, lists_, entries_;
     std::optional<gpu::Program> sum_, march_;  ///< compiled on first use
-    std::optional<scene::View> listedFor_;     ///< the view that the lists are of
+    std::optional<scene::View> listedFor_;     ///< the view that the lists were made for
 };
 
 /// Called by the registry.

@@ -1,5 +1,5 @@
-// The exact picture at 640×480 of a trail like that of the default scene, as its chase camera sees it, over level
-// ground; and from within the trail. One colour and two, whole frames and the lists alone.
+// Benchmarks exact tiles at 640×480 on a trail like the default scene's over level ground, seen by the chase camera
+// and from within the trail; with one colour and two; whole frames and the lists alone.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

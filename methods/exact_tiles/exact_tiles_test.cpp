@@ -13,7 +13,7 @@ namespace {
 
 constexpr double tolerance = 1e-5;
 
-/// Random puffs before and around an eye.
+/// Random puffs in front of and around an eye.
 class Cloud : public TestMoment {
  public:
     Cloud(std::size_t count, int width, int height, std::uint32_t seed = 1)
@@ -61,7 +61,7 @@ glm::dvec3 rayOf(const scene::View& view, int x, int y) {
                           (0.5 * view.height - y - 0.5) * slope * up);
 }
 
-/// Every pixel's depth by the definition: every puff, nothing neglected.
+/// Every pixel's depth by definition: the sum over all puffs, nothing neglected.
 double plainDepth(const Cloud& cloud, const glm::dvec3& ray, double from, double to) {
     double depth = 0;
     for (std::size_t i = 0; i < cloud.dust.size(); ++i) {

@@ -15,10 +15,10 @@
 namespace dustbench::exact_tiles {
 namespace {
 
-/// Added to cosines, which are single precision.
+/// Margin of cosines, which are single precision.
 constexpr float cosineMargin = 1e-5f;
 
-/// The camera's frame and picture in double precision.
+/// The camera's axes and image plane in double precision.
 struct Eye {
     explicit Eye(const scene::View& view) : position(view.camera.eye), width(view.width), height(view.height) {
         const glm::dvec3 sight = view.camera.target - view.camera.eye;
@@ -31,7 +31,7 @@ struct Eye {
         up = glm::cross(right, ahead);
         pixelSlope = 2 * std::tan(view.camera.verticalFieldOfView / 2) / view.height;
         if (!std::isfinite(glm::length(position) + glm::length(ahead) + glm::length(up) + pixelSlope))
-            throw std::invalid_argument("exact tiles: the camera's eye, target, up or field of view is no number");
+            throw std::invalid_argument("exact tiles: the camera's eye, target, up or field of view is not finite");
     }
 
     [[nodiscard]] glm::dvec3 fromWorld(const glm::dvec3& world) const {
@@ -40,14 +40,14 @@ struct Eye {
     }
     [[nodiscard]] double pixelX(double slope) const { return slope / pixelSlope + 0.5 * width; }
     [[nodiscard]] double pixelY(double slope) const { return slope / pixelSlope + 0.5 * height; }
-    /// Unit vector of the ray through a place of the picture, in pixels.
+    /// Unit vector of the ray through an image position in pixels.
     [[nodiscard]] glm::dvec3 ray(double x, double y) const {
         return glm::normalize(glm::dvec3((x - 0.5 * width) * pixelSlope, (y - 0.5 * height) * pixelSlope, 1));
     }
 
     glm::dvec3 position, right{1, 0, 0}, up{0, 1, 0}, ahead{0, 0, -1};
     int width, height;
-    double pixelSlope;  ///< change of a ray's slope from pixel to pixel, both ways
+    double pixelSlope;  ///< change of a ray's slope from pixel to pixel, along both axes
 };
 
 /// Range of slopes at which the half-plane through the camera's other axis meets the sphere of radius R.
@@ -61,7 +61,7 @@ Slopes slopesOf(double aside, double ahead, double reach) {
     return {(aside * ahead - root) * scale, (aside * ahead + root) * scale};
 }
 
-/// Tiles between two places of the picture, in pixels.
+/// Tiles between two image positions in pixels.
 std::pair<std::int16_t, std::int16_t> tilesBetween(double low, double high, int tiles) {
     const double first = std::clamp(std::floor((low - 0.5) / tilePixels), 0.0, static_cast<double>(tiles));
     const double end = std::clamp(std::floor((high + 0.5) / tilePixels) + 1, 0.0, static_cast<double>(tiles));
@@ -88,7 +88,7 @@ void PuffTiles::build(const Puffs& dust, const scene::View& view, double tolerat
 void PuffTiles::project(const Puffs& dust, const scene::View& view, double toleratedDepth, Along order) {
     const Eye eye(view);
     const double neglected = toleratedDepth / static_cast<double>(std::max<std::size_t>(dust.size(), 1));
-    // A tile's rays lie within this angle of the one through its middle; slopes change fastest at the picture's middle.
+    // A tile's rays are within this angle of its central ray; angles change fastest at the centre of the image.
     const double tileAngle = std::atan(tilePixels * std::numbers::sqrt2 / 2 * eye.pixelSlope);
     seen_.clear();
     for (std::size_t i = 0; i < dust.size(); ++i) {

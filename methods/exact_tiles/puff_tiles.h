@@ -1,10 +1,10 @@
-// The puffs of one moment as a view sees them, and for each tile of its picture the list of those that reach into it.
+// The puffs of one moment as seen by a view, with a list for each tile of the image of the puffs that reach into it.
 //
-// A list holds the puffs around the eye first, then the others, ordered by distance. Rays that pass a puff at a
-// distance of R or more are unaffected: there τ·exp(−R²/2s²) is a share 1/puffs of the tolerated depth.
+// A list contains the puffs around the eye first, then the others, ordered by distance. Puffs are ignored for rays
+// that pass at a distance of R or more, where τ·exp(−R²/2s²) is 1/(number of puffs) of the tolerated depth.
 //
 // Units: metres, pixels. Frame: camera axes (x right, y up, z ahead), pixels from the lower left corner.
-// Owns: all of it. Threads: uses the current oneTBB arena; the same lists at any number of threads.
+// Owns: all of it. Threads: uses the current oneTBB arena; results do not depend on the number of threads.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ inline constexpr int tilePixels = 8;  ///< edge of a tile
 /// Along a ray, a puff ends this many s from its centre; ½·erfc(4.75/√2) = 1e-6 of its depth lies beyond.
 inline constexpr double sigmasAlongRay = 4.75;
 
-/// A puff as the shaders read it. Of a puff ahead of the eye: the pixel of its centre as an integer and a fraction, so
-/// that the offset of a pixel from it does not cancel. Of one around the eye: its centre.
+/// A puff as the shaders read it. For a puff ahead of the eye, the pixel of its centre is stored as an integer and a
+/// fraction to avoid cancellation in a pixel's offset from it. For a puff around the eye, its centre is stored.
 struct PackedPuff {
     float pixelX, pixelY, fractionX, fractionY;  ///< around the eye: the centre x, y, z; unused
     float slopeX, slopeY, axisMetres, front;     ///< centre/axis distance; nearest distance of its extinction
@@ -32,12 +32,12 @@ struct PackedPuff {
     float red, green, blue, unused;
 };
 
-/// Where a tile's list begins, and where in it the puffs ahead of the eye do. It ends where the next one begins.
+/// The beginning of a tile's list, and of the puffs ahead of the eye in it. A list ends where the next one begins.
 struct TileList {
     std::uint32_t begin, ahead;
 };
 
-/// What orders the puffs ahead of the eye.
+/// Sort key of the puffs ahead of the eye.
 enum class Along { back, front };
 
 class PuffTiles {
@@ -48,7 +48,7 @@ class PuffTiles {
     void build(const Puffs& dust, const scene::View& view, double toleratedDepth, Along order);
 
     [[nodiscard]] std::span<const PackedPuff> puffs() const { return packed_; }
-    /// Row by row from below, and one more, where the last list ends.
+    /// Row by row from the bottom, plus one entry for the end of the last list.
     [[nodiscard]] std::span<const TileList> lists() const { return lists_; }
     [[nodiscard]] std::span<const std::uint32_t> entries() const { return entries_; }
     [[nodiscard]] int columns() const { return columns_; }
@@ -76,7 +76,7 @@ class PuffTiles {
     LedgerVector<PackedPuff> packed_;
     LedgerVector<TileList> lists_;
     LedgerVector<std::uint32_t> entries_;
-    std::size_t aroundEye_ = 0;  ///< so many of `packed_` come first
+    std::size_t aroundEye_ = 0;  ///< number of puffs around the eye; they come first in `packed_`
     int columns_ = 0, rows_ = 0;
 };
 

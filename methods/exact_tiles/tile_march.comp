@@ -1,13 +1,13 @@
-// Colours that differ: emission and absorption in slabs, front to back; a tile's slabs have one length, by its
-// narrowest puff.
+// Several colours: emission and absorption in slabs, front to back. The slab length of a tile is set by its narrowest
+// puff.
 //
 //     C ← C + (T before − T after)·Σ cᵢ·Δᵢ / Σ Δᵢ,   Δᵢ = τᵢ·exp(−b²/2s²)·½[erf(end) − erf(begin)] of the slab
 //
-// Depths are closed forms, so α is exact; only colours are taken as evenly mixed over a slab. The list is ordered by
-// `front`; a window of slabs at a time passes over it.
+// Depths are closed forms, so α is exact; only colours are assumed to be evenly mixed over a slab. The list is ordered
+// by `front` and is traversed once per window of slabs.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) writeonly uniform image2D picture;
-uniform float slabDeviations;  // length of a slab, by the smallest s of the tile
+uniform float slabDeviations;  // length of a slab in units of the smallest s of the tile
 
 const int window = 8;
 const float log2e = 1.44269504;
@@ -16,7 +16,7 @@ const float opaqueDepth = 20.0;  // T < 2e-9
 float depthOf[window];
 vec3 colourOf[window];
 
-/// Adds a puff's slabs. It ends at the scene, and nothing of it lies behind the eye.
+/// Adds a puff's depth to the slabs. The puff is cut at the scene and lies entirely in front of the eye.
 void add(float whole, Foot foot, Puff puff, float windowBegin, float slabMetres, float sceneMetres) {
     float width = puff.optics.z;
     float from = clamp(windowBegin, 0.0, sceneMetres) * width - foot.fromEye;

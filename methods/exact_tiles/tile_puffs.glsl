@@ -1,4 +1,4 @@
-// What both shaders share: the lists of the tiles, and a puff along a pixel's ray (puff_tiles.h).
+// Shared by both shaders: the lists of the tiles, and a puff along a pixel's ray (puff_tiles.h).
 struct Puff {
     vec4 pixel;   // centre's pixel, its fraction; around the eye: the centre
     vec4 place;   // slopes of the centre, its axis distance, nearest distance of its extinction
@@ -36,7 +36,7 @@ Ray rayOf(ivec2 pixel, ivec2 size) {
     return ray;
 }
 
-/// Of a ray's point nearest to a puff's centre, the distances from the eye and to the scene, by √2·s.
+/// Distances from the eye and to the scene of the ray's point nearest to a puff's centre, divided by √2·s.
 struct Foot {
     float fromEye, toScene;
 };

@@ -1,7 +1,6 @@
-// One colour for all: Σ τ·exp(−b²/2s²)·½[erf((t1 − tc)/√2s) − erf((0 − tc)/√2s)] over the tile's list, α = 1 − exp(−Σ).
+// A single colour: Σ τ·exp(−b²/2s²)·½[erf((t1 − tc)/√2s) − erf((0 − tc)/√2s)] over the tile's list, α = 1 − exp(−Σ).
 //
-// An invocation sums ROWS pixels of a column, so that software, which reads a puff once for every lane, reads it for
-// several pixels.
+// An invocation sums ROWS pixels of a column. This helps software renderers, which read a puff once per lane.
 layout(local_size_x = 8, local_size_y = 8 / ROWS) in;
 layout(binding = 0) writeonly uniform image2D picture;
 uniform vec3 colourOfAll;
@@ -29,7 +28,7 @@ void main() {
             sums[row] += depthAroundEye(puff, rays[row]) * share;
         }
     }
-    // The list is ordered by `back`: first the puffs that end before the nearest surface, then those that it may cut.
+    // The list is ordered by `back`: first the puffs that end before the nearest surface, then those it may cut.
     uint k = list.y;
     for (; k < end; ++k) {
         Puff puff = puffs[entries[k]];

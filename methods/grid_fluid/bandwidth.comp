@@ -1,5 +1,5 @@
-// Reads a value from each of STREAMS arrays, makes OPERATIONS multiplications with additions of each component, and
-// writes a value to each of as many arrays.
+// Reads a value from each of STREAMS arrays, performs OPERATIONS multiply-adds on each component, and writes a value to
+// each of STREAMS arrays.
 layout(local_size_x = 256) in;
 layout(std430, binding = 0) restrict readonly buffer First { vec4 first[]; };
 layout(std430, binding = 1) restrict writeonly buffer FirstResult { vec4 firstResult[]; };

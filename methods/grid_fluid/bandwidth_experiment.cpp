@@ -81,7 +81,7 @@ std::vector<Finding> measureCosts(ExperimentContext& context) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "What twice the arithmetic costs a device, against twice the bytes.";
+    info.summary = "Measures whether doubling the arithmetic or doubling the memory traffic slows a device down more.";
     info.source = "Senger2009";
     info.run = measureCosts;
     return info;

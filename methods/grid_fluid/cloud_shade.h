@@ -1,7 +1,7 @@
-// The sun's light that gets to a place in a cloud of several grids, through all of them but one.
+// Sunlight that reaches a point in a cloud of several grids, through all of them but one.
 //
-// Each grid is kept as means of blocks of cells; a ray to the sun takes steps of a block. Units: metres, extinction per
-// metre. Frame: world. Owns: the means. Threads: `arrivingAt` may be called from several.
+// Each grid is stored as means over blocks of cells; a ray to the sun takes steps of one block. Units: metres,
+// extinction per metre. Frame: world. Owns: the means. Threads: `arrivingAt` may be called from several.
 #pragma once
 
 #include <array>
@@ -20,15 +20,15 @@ class CloudShade {
     /// `toSun`: unit vector.
     CloudShade(const glm::vec3& toSun, double extinctionPerMetre) : toSun_(toSun), extinction_(extinctionPerMetre) {}
 
-    /// Names a grid.
+    /// Identifies a grid.
     using Id = std::array<int, 3>;
 
     /// Adds or replaces a grid. All have the same spacing.
     void set(const Id& id, const raycast::ShownGrid& grid);
-    /// Moves a grid, and leaves it this share of its density.
+    /// Moves a grid and sets the remaining share of its original density.
     void change(const Id& id, const glm::dvec3& originMetres, double share);
     void remove(const Id& id) { grids_.erase(id); }
-    /// Share of the sun's light, behind all grids but this one.
+    /// Share of the sunlight that passes all grids but this one.
     [[nodiscard]] float arrivingAt(const glm::dvec3& place, const Id& without) const;
 
  private:

@@ -1,4 +1,4 @@
-// Light through a cloud of several grids.
+// Tests light through a cloud of several grids.
 #include "methods/grid_fluid/cloud_shade.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr CloudShade::Id left{0, 0, 0}, right{1, 0, 0};
 
-/// Evenly filled; two such grids lie beside each other along x.
+/// Evenly filled; two such grids are adjacent along x.
 struct Even {
     [[nodiscard]] raycast::ShownGrid at(double x) const { return {{16, 16, 16}, 0.25, {x, 0, 0}, density, {}}; }
     std::vector<float> density = std::vector<float>(static_cast<std::size_t>(16 * 16 * 16), 0.5f);

@@ -28,7 +28,7 @@ struct LumpyCloud {
     }
 };
 
-/// A ball with lumps in it, clear at the grid's rim, hotter on one side.
+/// A lumpy ball, clear at the grid's rim, hotter on one side.
 LumpyCloud lumpyCloud(std::uint64_t seed) {
     const auto random = maths::uniform4(seed, 5, 0);
     const glm::dvec3 phase = 6.0 * glm::dvec3(random[0], random[1], random[2]);
@@ -80,7 +80,7 @@ double largestDifference(const glm::vec4& a, const glm::vec4& b) {
     return largest;
 }
 
-/// OpenGL's march and slices, at the few pixels whose rays are so straight ahead that both sample the same places.
+/// OpenGL's march and slices, at the few pixels whose rays are so close to the axis that both sample the same points.
 double marchAgainstSlices(gpu::Device& device, std::uint64_t seed) {
     constexpr int across = 4, views = 12;
     const LumpyCloud cloud = lumpyCloud(seed);
@@ -178,7 +178,7 @@ std::vector<Finding> measureOrders(ExperimentContext& context) {
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 const Composite full = frontToBack(rays[i], 1), ended = frontToBack(rays[i], stopAlpha);
                 most = std::max(most, largestDifference(full.seen, ended.seen));
-                // The rays of the middle ninth.
+                // Only the rays of the central ninth.
                 const glm::ivec2 pixel(static_cast<int>(i) % across, static_cast<int>(i) / across);
                 if (glm::any(glm::lessThan(3 * pixel, glm::ivec2(across))) ||
                     glm::any(glm::greaterThanEqual(3 * pixel, glm::ivec2(2 * across))))
@@ -200,7 +200,7 @@ std::vector<Finding> measureOrders(ExperimentContext& context) {
 ExperimentInfo describe() {
     ExperimentInfo info;
     info.summary =
-        "Whether rays composited from the front and from the back show the same, and what an early end saves.";
+        "Compares front-to-back with back-to-front compositing of rays, and measures what early termination saves.";
     info.source = "Senger2009";
     info.run = measureOrders;
     return info;

@@ -44,7 +44,7 @@ DemoMemory measureMemory(gpu::Device& device, const glm::ivec3& cells, const glm
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "The bytes of the published demo's fields and of the picture, by the ledger of the GPU.";
+    info.summary = "Measures the GPU memory of the published demo's fields and of its picture.";
     info.source = "Senger2009";
     info.run = [](ExperimentContext& context) { return measureAll(context.device()); };
     return info;

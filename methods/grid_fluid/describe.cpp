@@ -34,7 +34,7 @@ void override(const ParameterValues& values, const char* name, float& value) {
     // Values between "as in the file" and 0 have no meaning.
     else if (given != asTheFileSays)
         throw InputError(std::string("parameter ") + name + ": got " + std::to_string(given) +
-                         ", allowed: 0 or more, or -1: as the fluid's file says");
+                         ", allowed: 0 or more, or -1 for the value of the fluid's file");
 }
 
 double spacingOf(const ParameterValues& values, const FluidSetup& setup, int cellsAlongX) {
@@ -42,7 +42,7 @@ double spacingOf(const ParameterValues& values, const FluidSetup& setup, int cel
     if (given == asTheFileSays) return setup.lengthMetres / cellsAlongX;
     if (given > 0) return given;
     throw InputError("parameter spacing_m: got " + std::to_string(given) +
-                     " m, allowed: more than 0, or -1: the length of the fluid's box by its cells along x");
+                     " m, allowed: more than 0, or -1 for the length of the fluid's box divided by its cells along x");
 }
 
 GridFluidSettings settingsOf(const ParameterValues& values) {
@@ -74,7 +74,7 @@ GridFluidSettings settingsOf(const ParameterValues& values) {
         std::ranges::any_of(setup.sources, [](const SourceSetup& s) { return s.at == SourceAt::wheels; });
     if (settings.scheme == FlowScheme::demo && (setup.followsVehicle || atWheels))
         throw InputError("parameter scheme: got demo with fluid '" + setup.name +
-                         "', which follows the vehicle, allowed: ours; the demo's box stands still");
+                         "', which follows the vehicle, allowed: ours, since the demo's box cannot move");
     settings.solverBackend = values.choice("solver", solverBackends);
     settings.trail = values.boolean("trail");
     settings.framesPerStep = static_cast<int>(values.integer("frames_per_step"));
@@ -91,42 +91,41 @@ GridFluidSettings settingsOf(const ParameterValues& values) {
 MethodInfo describe() {
     MethodInfo info;
     info.title = "Grid fluid";
-    info.summary = "Smoke, fire or dust flows in a grid around solids, and is ray cast.";
+    info.summary = "Simulates smoke, fire or dust on a grid, with solids as obstacles, and ray casts it.";
     info.source = "Senger2009";
     info.takesLights = true;
-    info.parameters.dataFile("fluid", "dust", "fluids", ".toml", fluidNames(), "what flows, from where, in which box")
+    info.parameters.dataFile("fluid", "dust", "fluids", ".toml", fluidNames(), "fluid, with its sources and its box")
         .cells("grid", "128x64x64", 4, 4096, "cells along x, y and z")
         .real("spacing_m", asTheFileSays, asTheFileSays, 1000, "m",
-              "edge of a cell; -1: the length of the fluid's box by its cells along x")
+              "edge of a cell; -1: the length of the fluid's box divided by its cells along x")
         .choice("scheme", FlowScheme::ours, schemes,
-                "ours, by the parameters below; or the demo as published: half floats at the cells' centres, forward "
-                "MacCormack clamped to eight nodes, six sweeps, its own confinement and decay")
+                "ours: set by the parameters below; demo: the demo as published, with half floats at the cells' "
+                "centres, forward MacCormack clamped to eight nodes, six sweeps, its own confinement and decay")
         .choice("advection", flow::AdvectionScheme::macCormack, advectionSchemes,
-                "look back along the flow, or correct that by its own error as well")
+                "trace back along the flow, without or with MacCormack's correction of the error")
         .choice("limit", flow::Limit::revert, limits,
-                "what is done where that correction overshoots: the paper's clamp to the cells around, or back to the "
-                "uncorrected value")
+                "if MacCormack's correction overshoots: clamp to the cells around, as in the paper; revert to the "
+                "uncorrected value; or leave it")
         .choice("velocity_at", flow::VelocityAt::begin, velocityTimes,
                 "velocity that paths follow: at the beginning of the step, or at its middle, extrapolated from the "
-                "last two "
-                "states: paths of second order in time")
+                "last two states, which makes paths second-order accurate in time")
         .choice("pressure", flow::PressureMethod::multigrid, pressureMethods,
-                "the paper's sweeps, or cycles over coarser and coarser grids until the tolerance is met")
+                "a fixed number of Jacobi sweeps, as in the paper, or multigrid cycles until the tolerance is met")
         .choice("solver", SolverBackend::automatic, solverBackends,
-                "who computes the flow; auto: the GPU where OpenGL has one and the rays are cast there, else the CPU")
-        .integer("sweeps", 40, 0, 100'000, "", "of pressure=jacobi")
+                "processor that computes the flow; auto: the GPU if OpenGL has one and casts the rays there, else CPU")
+        .integer("sweeps", 40, 0, 100'000, "", "number of Jacobi sweeps with pressure=jacobi")
         .real("tolerance", 0.001, 1e-7, 10, "",
-              "of pressure=multigrid: the share of its volume that a cell may gain in a step")
-        .real("vorticity", asTheFileSays, asTheFileSays, 1000, "1/s", "confinement of vortices; -1: as the file says")
-        .real("buoyancy", asTheFileSays, asTheFileSays, 1e6, "m/s2/K", "rise for each kelvin; -1: as the file says")
-        .real("cooling", asTheFileSays, asTheFileSays, 1000, "1/s", "share of the heat lost; -1: as the file says")
-        .real("decay", asTheFileSays, asTheFileSays, 1000, "1/s", "share of the density lost; -1: as the file says")
-        .real("diffusion", asTheFileSays, asTheFileSays, 1000, "m2/s", "viscosity; -1: as the file says")
+              "share of its volume that a cell may gain in a step with pressure=multigrid")
+        .real("vorticity", asTheFileSays, asTheFileSays, 1000, "1/s", "vorticity confinement; -1: as in the file")
+        .real("buoyancy", asTheFileSays, asTheFileSays, 1e6, "m/s2/K", "acceleration per kelvin; -1: as in the file")
+        .real("cooling", asTheFileSays, asTheFileSays, 1000, "1/s", "rate of heat loss; -1: as in the file")
+        .real("decay", asTheFileSays, asTheFileSays, 1000, "1/s", "rate of density loss; -1: as in the file")
+        .real("diffusion", asTheFileSays, asTheFileSays, 1000, "m2/s", "viscosity; -1: as in the file")
         .boolean(
             "trail", true,
-            "keep the dust that a box leaves behind that follows the vehicle: the wind carries it, and it fades with "
-            "age; without, it is gone; renderer=isosurface shows the box alone")
-        .integer("frames_per_step", 1, 1, 600, "frames", "the fluid takes one long step in so many frames");
+            "keep the dust that leaves a box that follows the vehicle: the wind carries it, and it fades with age; "
+            "renderer=isosurface shows the box only")
+        .integer("frames_per_step", 1, 1, 600, "frames", "number of frames for each step of the fluid");
     raycast::declareRaycast(info.parameters);
     info.facts = {
         {"mass_kept", "share", FactOver::lastFrame,
@@ -141,22 +140,21 @@ MethodInfo describe() {
         {"flow_cells_per_step_max", "cells", FactOver::lastFrame,
          "distance that the flow covers in a step (the Courant number): maximum since the beginning"},
         {"flow_divergence_max", "share", FactOver::lastFrame,
-         "share of its volume that a cell gains in a step, as the pressure leaves it: maximum since the beginning"},
+         "share of its volume that a cell gains in a step after the pressure solve: maximum since the beginning"},
         {"flow_divergence", "share", FactOver::lastFrame,
          "share of its volume that a cell gains in a step by the stored speeds of its faces: maximum after the last "
          "frame"},
         {"flow_noise_speed", "share", FactOver::lastFrame,
-         "variance of the stored vertical speed along the vertical that lies in the top fifth of the spectrum, waves "
-         "shorter "
-         "than 2.5 cells, in columns clear of solids, after the last frame"},
+         "share of the variance of the stored vertical speed in the top fifth of the spectrum along the vertical "
+         "(waves shorter than 2.5 cells), in columns clear of solids, after the last frame"},
         {"flow_noise_density", "share", FactOver::lastFrame,
-         "variance of the density along the vertical that lies in the top fifth of the spectrum, as "
+         "share of the variance of the density in the top fifth of the spectrum along the vertical, as in "
          "`flow_noise_speed`, after the last frame"},
         {"pressure_unsolved",
          "steps",
          FactOver::lastFrame,
-         "steps in which the pressure solver ran out of cycles before its tolerance: number since the beginning; empty "
-         "for a fixed number of sweeps",
+         "steps in which the pressure solver ran out of cycles before it met its tolerance: number since the "
+         "beginning; empty for a fixed number of sweeps",
          {0, 0}}};
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<GridFluid>(settingsOf(values));

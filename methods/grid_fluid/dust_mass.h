@@ -1,4 +1,4 @@
-// Rate at which the wheels raise dust: the optical mass that the shared dust gains, on average, by its births.
+// Rate at which the wheels raise dust: the mean optical mass that births add to the shared dust.
 //
 // Each puff born in a step adds the mean mass of a puff of the shared cloud at that moment; the fluid's density decays
 // at 1/mean lifetime per second. Both clouds then hold the same mass, births·lifetime·mean mass, within the fluid's

@@ -33,7 +33,7 @@ Emitters::Emitters(const std::vector<SourceSetup>& setups, const scene::Scene& s
         if (setup.at == SourceAt::point) balls_.push_back({setup.centreMetres, &setup, 0});
         if (setup.at == SourceAt::solid) scatterOver(setup, scene);
         if (setup.at == SourceAt::wheels && !scene.vehicle)
-            throw InputError("fluid: has sources at wheels, and scene '" + scene.id + "' has no vehicle");
+            throw InputError("fluid: has sources at wheels, but scene '" + scene.id + "' has no vehicle");
     }
 }
 

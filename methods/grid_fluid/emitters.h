@@ -1,4 +1,4 @@
-// Converts the sources of a fluid's file into balls in the world, step by step.
+// Converts the sources of a fluid's file into balls in the world for each step.
 //
 // Units: SI. Frame: world. Threads: one at a time. Source: Senger2009, 4.3: a sinusoid in time with a random factor.
 // Departs: the random factor is drawn for each ball and step from Philox, and each ball has its own phase.
@@ -17,8 +17,8 @@ namespace dustbench::grid_fluid {
 
 class Emitters {
  public:
-    /// `setups` and `scene` must outlive it. Throws InputError if the scene lacks the object that a source is attached
-    /// to.
+    /// `setups` and `scene` must outlive this. Throws InputError if the scene lacks the object that a source is
+    /// attached to.
     Emitters(const std::vector<SourceSetup>& setups, const scene::Scene& scene, std::uint64_t seed);
 
     /// The sources at this step; `dustM2` is the optical mass that all wheels together raise in `stepSeconds`.
@@ -35,8 +35,8 @@ class Emitters {
     struct Ball {
         glm::dvec3 centre;
         const SourceSetup* setup;
-        float phase;                   ///< of its oscillation, in turns
-        std::optional<Place> place{};  ///< on a solid that moves, with which it goes
+        float phase;                   ///< of its oscillation, in periods
+        std::optional<Place> place{};  ///< on a moving solid, which carries it
     };
     [[nodiscard]] glm::dvec3 centreOf(const Ball& ball, const scene::SceneState& state) const;
     void scatterOver(const SourceSetup& setup, const scene::Scene& scene);

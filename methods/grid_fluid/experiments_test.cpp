@@ -85,7 +85,7 @@ TEST(SchemeAccuracyExperiment, MeasuresDistancesThatFallAsTheGridIsRefined) {
 }
 
 TEST(FireExperiment, ShowsTheSameMassAsParticlesAndAsAVolume) {
-    // Thin pieces, wide enough for the grid: the two pictures of them differ by the grid's interpolation alone.
+    // Thin pieces, wide enough for the grid: their two pictures differ only by the grid's interpolation.
     std::vector<fire::Flake> pieces = fire::scatter(5, 0.16, 7);
     for (fire::Flake& piece : pieces) piece.depth = 0.01;
     const fire::Picture particles = fire::pictureOf(pieces, {}, 32),
@@ -96,7 +96,7 @@ TEST(FireExperiment, ShowsTheSameMassAsParticlesAndAsAVolume) {
     };
     EXPECT_NEAR(sumOf(volume) / sumOf(particles), 1, 0.02);
     EXPECT_EQ(fire::distanceOf(particles, particles), 0);
-    // A fire and its particles: as much smoke in both.
+    // A fire and its particles have the same amount of smoke.
     fire::Burning burning = fire::burn(16, 0.4, 3000, 3);
     for (fire::Flake& flake : burning.particles) {
         flake.deviation = 0.1;
@@ -117,7 +117,7 @@ TEST(FireExperiment, CorrelatesWhatBurnsWithWhatIsSeen) {
 }
 
 TEST(FireExperiment, AFieldIsShownAsTheGridThatHoldsIt) {
-    // A puff with fire in it, wide enough for the cells.
+    // A burning puff, wide enough for the cells.
     const auto field = [](const glm::dvec3& place) {
         const glm::dvec3 aside = (place - glm::dvec3(0.7, 1.5, 0.8)) / 0.25;
         return glm::dvec2(std::exp(-glm::dot(aside, aside) / 2), std::clamp(place.y - 1, 0.0, 1.0));
@@ -137,7 +137,7 @@ TEST(FireExperiment, AFieldIsShownAsTheGridThatHoldsIt) {
 }
 
 TEST(FireExperiment, GridsConvergeToTheFireThatPathsGive) {
-    // All of what the source gave is on some path. The flow is that of the grid, so only what is carried differs.
+    // Everything that the source emitted is on some path. The flow is that of the grid, so only the transport differs.
     constexpr double seconds = 0.5;
     std::array<double, 3> apart{};
     for (std::size_t k = 0; k < apart.size(); ++k) {
@@ -167,7 +167,7 @@ class Context final : public ExperimentContext {
     [[nodiscard]] gpu::Device& device() override { return draw::TestCanvas::device(); }
     [[nodiscard]] std::unique_ptr<ExperimentWorld> world(const std::string&, const std::map<std::string, std::string>&,
                                                          int, int) override {
-        ADD_FAILURE() << "a world was asked for";
+        ADD_FAILURE() << "a world was requested";
         return nullptr;
     }
 };
@@ -206,7 +206,7 @@ TEST(LegoExperiment, MeasuresTheJumpsAtBordersByTheCloudsOwnChange) {
     };
     const pictures::Image blocks = imageOf(edge, edge, [&](int x, int y) { return slope * (middle(x) + middle(y)); });
     EXPECT_NEAR(lego::blocksOf(blocks, exact), lego::pixelsPerCell - 1, 1e-4);
-    // What is wrong elsewhere than at a border does not count.
+    // Errors away from borders do not count.
     const pictures::Image shifted = imageOf(edge, edge, [&](int x, int y) { return slope * (x + y) + 0.1; });
     EXPECT_NEAR(lego::blocksOf(shifted, exact), 0, 1e-4);
 }
@@ -251,7 +251,7 @@ TEST(CompositingExperiment, ComparesMarchAndSlicesAtTheSamePlaces) {
 }
 
 TEST(MarchingCubesExperiment, CountsTheKnownClasses) {
-    // By Burnside's lemma: 23 colourings of a cube's corners with two colours under its turns, 22 with mirrors.
+    // By Burnside's lemma: 23 colourings of a cube's corners with two colours under rotations, 22 with reflections.
     EXPECT_EQ(marching_cubes::classesOf(false, false), 23);
     EXPECT_EQ(marching_cubes::classesOf(true, false), 22);
     EXPECT_EQ(marching_cubes::classesOf(false, true), 15);

@@ -40,7 +40,7 @@ flow::FluidSettings settingsOf(int cells) {
     return settings;
 }
 
-/// Trilinear between the centres of the cells, constant beyond the outermost.
+/// Trilinear between the centres of the cells, constant beyond the outermost ones.
 class Speeds {
  public:
     explicit Speeds(const flow::FluidSolver& solver)
@@ -63,7 +63,7 @@ class Speeds {
         return glm::mix(glm::mix(alongX(0, 0), alongX(1, 0), t.y), glm::mix(alongX(0, 1), alongX(1, 1), t.y), t.z);
     }
 
-    /// Where the air that is at a place was a step before.
+    /// The place one step earlier of the air that is at `place` now.
     [[nodiscard]] glm::dvec3 before(const glm::dvec3& place) const {
         return place - stepSeconds * at(place - 0.5 * stepSeconds * at(place));
     }
@@ -79,7 +79,7 @@ glm::dvec2 burningAt(const std::vector<Speeds>& speeds, const flow::FluidSource&
     glm::dvec2 found(0);
     const double addedPerStep = static_cast<double>(source.densityPerSecond) * stepSeconds;
     double ageSeconds = 0;
-    // The source gives after the air has moved, and then it burns.
+    // First the air moves, then the source emits, then the fire burns.
     for (auto air = speeds.rbegin(); air != speeds.rend(); ++air) {
         const glm::dvec3 aside = (place - source.centreMetres) / source.radiusMetres;
         const double square = glm::dot(aside, aside);
@@ -108,7 +108,7 @@ glm::dvec3 birthPlace(const flow::FluidSource& source, std::uint64_t seed, std::
     return source.centreMetres + source.radiusMetres * glm::dvec3(across, along.x);
 }
 
-/// What is fresh is shown as what is burnt out, and the other way round.
+/// Shows fresh fire as burnt out, and vice versa.
 raycast::TransferFunction backwards(const raycast::TransferFunction& flame) {
     constexpr int rows = 64;
     std::vector<raycast::TransferFunction::Row> turned;
@@ -126,7 +126,7 @@ Burning burn(int cells, double seconds, int particles, std::uint64_t seed, Paths
     flow::FluidSolver solver(settingsOf(cells), ledger);
     const flow::FluidSource source = sourceOf(seed);
     const auto steps = static_cast<int>(std::lround(seconds / stepSeconds));
-    // What the source adds, ∫ of its Gaussian, is the particles'.
+    // The particles have the amount that the source adds, the integral of its Gaussian.
     const double amount = static_cast<double>(source.densityPerSecond) * seconds *
                           std::pow(std::sqrt(2 * std::numbers::pi) * source.radiusMetres, 3);
     Burning burning;
@@ -206,7 +206,7 @@ FireGrid gridOf(const std::vector<Flake>& pieces, int cells) {
 
 namespace {
 
-/// What was found in each fire and each scattering.
+/// The results for each fire and each set of pieces.
 using Found = std::map<std::string, std::vector<double>>;
 
 std::vector<Flake> widened(std::vector<Flake> particles, double deviation) {
@@ -219,7 +219,7 @@ std::vector<Flake> widened(std::vector<Flake> particles, double deviation) {
 
 void measureFire(Found& found, int cells, std::uint64_t seed) {
     constexpr double seconds = 1.2;
-    constexpr int particles = 5000;  // as the paper's Figure 18 c
+    constexpr int particles = 5000;  // as in the paper's Figure 18 c
     constexpr int width = 64;
     const raycast::TransferFunction flame;
     const Burning fire = burn(cells, seconds, particles, seed);
@@ -288,7 +288,7 @@ std::vector<Finding> measureAll(ExperimentContext& context) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "Whether a volume shows fire better than particles do, and particles single pieces.";
+    info.summary = "Tests whether volumes show fire better than particles, and particles show single pieces better.";
     info.source = "Senger2009";
     info.run = measureAll;
     return info;

@@ -11,9 +11,9 @@
 namespace dustbench::grid_fluid::fire {
 namespace {
 
-constexpr double minimumAlpha = 1e-4;  ///< of a pixel: below it nothing is there
+constexpr double minimumAlpha = 1e-4;  ///< pixels with a smaller alpha count as empty
 
-/// The light that smoke reflects: a dark one's, in daylight.
+/// The light reflected by smoke: dark smoke in daylight.
 raycast::Reflected smoke() {
     return raycast::cloudColour(glm::vec3(0.1f), scene::Lights{});
 }
@@ -66,7 +66,7 @@ double correlationOf(const std::vector<double>& a, const std::vector<double>& b)
     return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
-/// A sum over the cells on a ray's way.
+/// A sum over the cells along a ray.
 glm::dvec4 freshnessSeen(const FireGrid& grid, const raycast::TransferFunction& flame, const glm::dvec2& place) {
     const glm::ivec2 last(grid.cells - 1, 2 * grid.cells - 1);
     const glm::dvec2 at = place / grid.spacingMetres() - 0.5, low = glm::floor(at), share = at - low;
@@ -113,10 +113,10 @@ Picture pictureOf(const FireGrid& grid, const raycast::TransferFunction& flame, 
 }
 
 Picture pictureOf(std::vector<Flake> flakes, const raycast::TransferFunction& flame, int width) {
-    constexpr double reach = 3;  // deviations, as billboards have
+    constexpr double reach = 3;  // deviations, as for billboards
     std::ranges::stable_sort(flakes, {}, [](const Flake& flake) { return flake.centre.z; });
     const glm::dvec3 reflected(smoke().all());
-    std::vector<glm::dvec4> looks;  // colour, and depth in the middle
+    std::vector<glm::dvec4> looks;  // colour, and depth at the centre
     for (const Flake& flake : flakes) {
         const glm::dvec4 burning(flame.at(flake.reaction));
         looks.emplace_back(glm::dvec3(burning) + reflected, flake.depth * burning.a);
@@ -196,7 +196,7 @@ double piecesSeen(const Picture& picture, const std::vector<Flake>& pieces) {
                    ? 0.0
                    : picture.alphas[static_cast<std::size_t>(y * picture.width + x)];
     };
-    // Of equal neighbours the first counts.
+    // Of equal neighbours only the first counts.
     const auto isMaximum = [&](int x, int y) {
         const double alpha = alphaAt(x, y);
         for (int j = -1; j <= 1; ++j)

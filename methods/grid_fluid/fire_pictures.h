@@ -1,7 +1,7 @@
-// Pictures in parallel rays of a fire, and of single pieces, as volumes and as particles.
+// Pictures of a fire and of single pieces, with parallel rays, as volumes and as particles.
 //
-// Units: metres; linear RGB. Frame: a box from the origin on, `widthMetres` × 2 `widthMetres` × `widthMetres`. Threads:
-// the current oneTBB arena; the same at any number of them.
+// Units: metres; linear RGB. Frame: a box from the origin on, `widthMetres` × 2 `widthMetres` × `widthMetres`.
+// Threads: the current oneTBB arena; results do not depend on their number.
 #pragma once
 
 #include <functional>
@@ -13,9 +13,9 @@
 namespace dustbench::grid_fluid::fire {
 
 inline constexpr double widthMetres = 1.6;
-inline constexpr double extinctionPerMetre = 6;  ///< of a density of 1
+inline constexpr double extinctionPerMetre = 6;  ///< at a density of 1
 
-/// A particle of a fire, or a piece: a puff with its own freshness.
+/// A particle of a fire, or a single piece: a puff with its freshness.
 struct Flake {
     glm::dvec3 centre;
     double deviation;  ///< s
@@ -32,7 +32,7 @@ struct FireGrid {
 /// Density and reaction at any place.
 using FireField = std::function<glm::dvec2(const glm::dvec3&)>;
 
-/// One pixel a ray along −z, rows from the bottom.
+/// One ray per pixel along −z, rows from the bottom.
 struct Picture {
     int width = 0, height = 0;
     std::vector<glm::dvec3> colours;  ///< premultiplied
@@ -43,25 +43,24 @@ struct Picture {
 /// Puffs as billboards, from the farthest to the nearest.
 [[nodiscard]] Picture pictureOf(std::vector<Flake> flakes, const raycast::TransferFunction& flame, int width);
 
-/// Of what burns: the mean freshness along the rays, premultiplied in each channel. No part of it is the march whose
-/// pictures it judges.
+/// Mean freshness of the fire along the rays, premultiplied in each channel. Independent of the march whose pictures it
+/// evaluates.
 [[nodiscard]] Picture freshnessOf(const FireGrid& grid, int width);
 
 struct FieldPictures {
     Picture shown, freshness;
 };
-/// A field as it is, in steps of `stepMetres`: neither cells nor particles.
+/// Marches directly through a field, without cells or particles, in steps of `stepMetres`.
 [[nodiscard]] FieldPictures picturesOf(const FireField& field, double stepMetres,
                                        const raycast::TransferFunction& flame, int width);
 
 /// ‖a − b‖ / ‖b‖ of the colours over black.
 [[nodiscard]] double distanceOf(const Picture& picture, const Picture& reference);
 
-/// Spearman's rank correlation of the freshness with the luminance of what is seen there, over the pixels that both
-/// pictures cover.
+/// Spearman's rank correlation of freshness and visible luminance, over the pixels that both pictures cover.
 [[nodiscard]] double correlationOf(const Picture& picture, const Picture& freshness);
 
-/// Share of the pieces that are a maximum of the picture's alpha of their own, within a deviation of their centre.
+/// Share of the pieces that have their own maximum of the picture's alpha within one deviation of their centre.
 [[nodiscard]] double piecesSeen(const Picture& picture, const std::vector<Flake>& pieces);
 
 }  // namespace dustbench::grid_fluid::fire

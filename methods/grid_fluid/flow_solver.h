@@ -19,8 +19,8 @@ enum class FlowScheme {
     demo,  ///< as the published demo: demo/
 };
 
-/// Of `scheme=demo`, `burns` chooses between its numbers for smoke and for fire. `device` and `ledger` must outlive it.
-/// Throws InputError for an invalid box or settings.
+/// With `scheme=demo`, `burns` selects the constants for fire instead of smoke. `device` and `ledger` must outlive the
+/// solver. Throws InputError for an invalid box or settings.
 [[nodiscard]] std::unique_ptr<flow::Solver> makeFlowSolver(const flow::FluidSettings& settings, FlowScheme scheme,
                                                            bool burns, bool onGpu, gpu::Device& device,
                                                            MemoryLedger& ledger);

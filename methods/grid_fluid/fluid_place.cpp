@@ -6,7 +6,7 @@
 namespace dustbench::grid_fluid {
 namespace {
 
-/// A scroll moves the whole box, so it waits until it is worthwhile.
+/// A scroll moves the whole box, so it is delayed until it is worthwhile.
 constexpr int minimumCells = 4;
 
 }  // namespace

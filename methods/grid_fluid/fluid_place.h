@@ -12,8 +12,8 @@
 
 namespace dustbench::grid_fluid {
 
-/// The desired minimum corner, on the lattice of the box. A following box keeps its vehicle near the end towards which
-/// it drives; its floor is the ground if the ground is level.
+/// The desired minimum corner, on the lattice of the box. A following box keeps the vehicle near the end in the driving
+/// direction; its floor is the ground if the ground is level.
 [[nodiscard]] glm::dvec3 wantedOrigin(const FluidSetup& setup, const flow::FluidBox& box, const scene::Terrain& terrain,
                                       const scene::VehicleState& vehicle);
 

@@ -96,8 +96,7 @@ FluidSetup readFluid(const std::filesystem::path& path) {
     if (file.has("flow")) readFlow(file.table("flow"), setup);
     if (file.has("look")) readLook(file.table("look"), path.parent_path(), setup.look);
     for (TomlReader& table : file.tables("source")) setup.sources.push_back(readSource(table));
-    if (setup.sources.empty())
-        throw InputError(file.where("source") + "got no [[source]], expected one or more: where the fluid comes from");
+    if (setup.sources.empty()) throw InputError(file.where("source") + "got no [[source]], expected at least one");
     file.finish();
     return setup;
 }

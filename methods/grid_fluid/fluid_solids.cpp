@@ -24,7 +24,7 @@ FluidSolids::FluidSolids(const scene::Scene& scene, glm::ivec3 cells, MemoryAcco
         scene.solids, [](const scene::Solid& solid) { return solid.motion != scene::SolidMotion::still; }));
     if (moving > maximum)
         throw InputError("solids of scene '" + scene.id + "': got " + std::to_string(moving) +
-                         " that move, allowed in a fluid: " + std::to_string(maximum));
+                         " that move, allowed in a fluid: at most " + std::to_string(maximum));
     motions_.resize(firstSolid - still + moving);
 }
 

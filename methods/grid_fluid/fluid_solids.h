@@ -1,6 +1,6 @@
 // The solids that the air flows around: the scene's solids, the vehicle with its wheels, and the ground.
 //
-// What moves as a rigid body has a motion; of a solid that deforms each cell has its own velocity.
+// A rigid solid has one motion; each cell of a deforming solid has its own velocity.
 // Units: SI. Frame: world. Owns: a byte for each cell, and a velocity where a solid deforms. Threads: one at a time.
 #pragma once
 
@@ -15,8 +15,8 @@ namespace dustbench::grid_fluid {
 
 class FluidSolids {
  public:
-    /// `scene` must outlive it, as `gpu` must if given, which then finds the cells. Throws InputError if more of its
-    /// solids move than there are numbers for.
+    /// `scene` must outlive this; so must `gpu`, which finds the cells if it is given. Throws InputError if more solids
+    /// move than can be numbered.
     FluidSolids(const scene::Scene& scene, glm::ivec3 cells, MemoryAccount& account,
                 flow_gl::CellsOnRays* gpu = nullptr);
 
@@ -33,7 +33,7 @@ class FluidSolids {
 
     const scene::Scene& scene_;
     MeshCells cells_;
-    std::vector<flow::BodyMotion> motions_;  ///< by Body, from `still` on
+    std::vector<flow::BodyMotion> motions_;  ///< by Body, starting at `still`
     std::vector<glm::vec3> vertexVelocities_;
 };
 

@@ -1,4 +1,4 @@
-// What moving and deforming solids do to the air: speeds of their faces, and what they displace.
+// Tests the effect of moving and deforming solids on the air: speeds of their faces, and displaced volume.
 #include "methods/grid_fluid/fluid_solids.h"
 
 #include <gtest/gtest.h>
@@ -46,11 +46,11 @@ class Air {
         }
     }
     [[nodiscard]] bool isSolid(const glm::ivec3& cell) const { return solids_.bodies()[index(cell)] != 0; }
-    /// Of the face towards the previous cell along an axis.
+    /// The speed of the face towards the previous cell along an axis.
     [[nodiscard]] double speed(const glm::ivec3& cell, int axis) const {
         return static_cast<double>(speeds_[static_cast<std::size_t>(axis)][index(cell)]);
     }
-    /// Calls `take(cell, axis, outwards)` for each face between a cell and the one before it of which one alone is
+    /// Calls `take(cell, axis, outwards)` for each face between a cell and the previous one if exactly one of them is
     /// solid; `outwards` is 1 if the solid is behind the face.
     template <typename Take>
     void forSurface(const Take& take) const {
@@ -58,7 +58,7 @@ class Air {
             if (isSolid(cell) != isSolid(before)) take(cell, axis, isSolid(before) ? 1.0 : -1.0);
         });
     }
-    /// Through the surface of a box of cells, outwards.
+    /// Outflow through the surface of a box of cells.
     [[nodiscard]] double flowOutOf(const glm::ivec3& first, const glm::ivec3& last) const {
         const auto isIn = [&](const glm::ivec3& cell) {
             return glm::all(glm::greaterThanEqual(cell, first)) && glm::all(glm::lessThanEqual(cell, last));
@@ -99,7 +99,7 @@ class Air {
     std::array<std::vector<float>, 3> speeds_;
 };
 
-/// In the world, of the face towards the previous cell.
+/// World position of the face towards the previous cell.
 glm::dvec3 middleOf(const glm::ivec3& cell, int axis) {
     glm::dvec3 place = glm::dvec3(cell) + 0.5;
     place[axis] -= 0.5;
@@ -125,7 +125,7 @@ TEST(FluidSolids, ASphereOnItsWayPushesTheAirAheadAtItsOwnSpeed) {
             EXPECT_NEAR(ahead[axis], disc, 0.02 * disc) << n;
             EXPECT_NEAR(ahead[axis], -behind[axis], 1e-6) << n;
         }
-        EXPECT_NEAR(air.flowOutOf({5, 5, 5}, {38, 34, 36}), 0, 1e-3) << "what it pushes away flows in behind it";
+        EXPECT_NEAR(air.flowOutOf({5, 5, 5}, {38, 34, 36}), 0, 1e-3) << "the displaced air flows in behind it";
     }
 }
 
@@ -145,7 +145,7 @@ TEST(FluidSolids, TheSurfaceOfWhatTurnsHasTheSpeedOfItsPlace) {
     EXPECT_GT(faces, 300);
 }
 
-/// The unit ball, of which each point p has the velocity `rates`·p.
+/// The unit ball, with the velocity `rates`·p at each point p.
 std::shared_ptr<const scene::DeformedMesh> swelling(const scene::Mesh& mesh, const glm::vec3& rates) {
     auto shape = std::make_shared<scene::DeformedMesh>(scene::DeformedMesh{mesh, {}});
     for (const glm::vec3& position : mesh.positions) shape->velocities.push_back(rates * position);
@@ -163,11 +163,11 @@ TEST(FluidSolids, ASphereThatSwellsDisplacesItsVolumesRate) {
         double displaced = 0;
         air.forSurface([&](const glm::ivec3& cell, int axis, double outwards) {
             displaced += outwards * air.speed(cell, axis) * edge * edge;
-            // The speed of the sphere where the line through the two cells' centres meets it.
+            // The sphere's speed at its intersection with the line through the centres of both cells.
             glm::dvec3 place = middleOf(cell, axis) - centre;
             place[axis] = 0;
             const double height = std::sqrt(std::max(0.0, radius * radius - glm::dot(place, place)));
-            if (height > edge) {  // else the ball is there but a cell thick, and both of its sides have the mean
+            if (height > edge) {  // otherwise the ball is only one cell thick there, and both sides have the mean
                 EXPECT_NEAR(air.speed(cell, axis), outwards * static_cast<double>(rates[axis]) * height, 0.01);
             }
         });
@@ -231,7 +231,7 @@ TEST(CellsOnRays, AreThoseThatTheCpuFinds) {
             const glm::dmat4 toCells = glm::scale(turned, 4.0 + 5.0 * glm::abs(vector()));
             for (MeshCells* found : {&onGpu, &onCpu}) found->add(mesh, toCells, body);
         }
-        // On the lattice itself: edges and corners lie on rays.
+        // Aligned with the lattice: edges and corners are on rays.
         const glm::dmat4 onLattice = placed({12.5, 9.5, 8.5}, 4);
         for (MeshCells* found : {&onGpu, &onCpu}) {
             found->add(block(glm::vec3(1)), onLattice, 4);
@@ -255,7 +255,7 @@ GridFluidSettings plumeSettings() {
     return settings;
 }
 
-/// After ten steps of a plume around a ball; `wobble` in metres and shares of its radius.
+/// State after ten steps of a plume around a ball; `wobble` in metres and as a share of its radius.
 std::optional<std::uint64_t> hashAfter(scene::SolidMotion motion, SolverBackend solver, float wobble) {
     TestMoment moment(0, 32, 32, {0, 2, 8}, {0, 0, -1});
     const auto mesh = std::make_shared<scene::Mesh>(ball(8));
@@ -339,7 +339,7 @@ TEST(FluidSolids, RefuseMoreThanTheyCanTellApart) {
     EXPECT_EQ(inputError([&] {
                   FluidSolids(scene, {8, 8, 8}, ledger.account("cells"));
               }),
-              "solids of scene 'crowd': got 250 that move, allowed in a fluid: 249");
+              "solids of scene 'crowd': got 250 that move, allowed in a fluid: at most 249");
 }
 
 }  // namespace

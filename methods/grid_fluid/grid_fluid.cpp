@@ -18,9 +18,9 @@
 namespace dustbench::grid_fluid {
 namespace {
 
-/// Above this the result is no longer a flow: a step carries the air across most of a box.
+/// Above this the result is meaningless: a step carries the air across most of a box.
 constexpr float maximumCellsPerStep = 100;
-/// A vehicle this far from the box affects none of its cells.
+/// A vehicle at this distance from the box does not affect any cell.
 constexpr double vehicleReachMetres = 8;
 
 bool vehicleIsNear(const flow::FluidBox& box, const scene::SceneState& state) {
@@ -54,7 +54,7 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
     const bool burns = !settings_.setup.look.fire.empty();
     if (settings_.scheme == FlowScheme::demo && scene.wind != glm::vec3(0))
         throw InputError("parameter scheme: got demo in scene '" + scene.id +
-                         "', which has wind, allowed: ours; the demo has still air");
+                         "', which has wind, allowed: ours, since the demo has no wind");
     if (settings_.setup.followsVehicle && settings_.trail) {
         solver.notesLeaving = true;
         trail_.emplace(solver, settings_.setup.look.extinctionPerMetre, ledger_);
@@ -67,7 +67,7 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
     if (scene.lights.onDust) raycast::lightDust(settings_.picture, scene);
     settings_.picture.smokeColour = settings_.setup.look.albedo.value_or(scene.dustAlbedo);
     picture_.emplace(device, settings_.picture, scene.lights, ledger_);
-    // Where box and trail share a density, neither reaches that of a surface.
+    // Where box and trail share the density, neither reaches that of the isosurface.
     if (trail_ && settings_.picture.renderer != raycast::Renderer::isosurface)
         trailPicture_.emplace(*picture_, settings_.picture, scene.lights.toSun, scene.terrain.isFlat());
     // Box and trail are blended on the host.
@@ -95,10 +95,10 @@ void GridFluid::requireSourcesInside(const scene::SceneState& state) {
     });
     if (!sources.empty() && !any)
         throw InputError(
-            "fluid '" + settings_.setup.name + "': all of its sources lie outside the box, which goes from (" +
+            "fluid '" + settings_.setup.name + "': all of its sources lie outside the box, which extends from (" +
             std::to_string(box.originMetres.x) + ", " + std::to_string(box.originMetres.y) + ", " +
             std::to_string(box.originMetres.z) + ") to (" + std::to_string(maximum.x) + ", " +
-            std::to_string(maximum.y) + ", " + std::to_string(maximum.z) + "); allowed: one source or more within it");
+            std::to_string(maximum.y) + ", " + std::to_string(maximum.z) + "); expected at least one source in it");
 }
 
 void GridFluid::update(const Frame& frame) {
@@ -135,8 +135,8 @@ void GridFluid::simulate(const Frame& frame) {
     if (solvesPressure() && !isSolved) ++extremes_.unsolvedSteps;
     if (report.cellsPerStep > maximumCellsPerStep) {
         std::ostringstream text;
-        text << "fluid: got a flow that goes " << report.cellsPerStep << " cells in step " << solver_->steps()
-             << ", allowed: at most " << maximumCellsPerStep << ": shorter steps, larger cells or weaker forces";
+        text << "fluid: the flow moves " << report.cellsPerStep << " cells in step " << solver_->steps()
+             << ", allowed: at most " << maximumCellsPerStep << "; use shorter steps, larger cells or weaker forces";
         throw InputError(text.str());
     }
     framesDue_ = 0;
@@ -227,13 +227,13 @@ void GridFluid::volume(const Frame&, VolumeVisitor& visitor) const {
                                            {"reaction", "1", 1, reaction},
                                            {"velocity", "m/s", 3, velocity},
                                            {"face_speeds", "m/s (across the faces towards -x, -y, -z)", 3, faces},
-                                           {"pressure", "m2/s2 (by density of the air)", 1, pressure},
+                                           {"pressure", "m2/s2 (divided by the density of air)", 1, pressure},
                                            {"solids", "1 inside", 1, solids}}};
     visitor.grid({box.originMetres, box.spacingMetres, box.cells, extinction, fields});
     if (trail_) volumeOfTrail(visitor);
 }
 
-/// Its tiles as grids of their own, without fields.
+/// The trail's tiles as separate grids, without fields.
 void GridFluid::volumeOfTrail(VolumeVisitor& visitor) const {
     std::vector<float> extinction(DustTrail::tileCells);
     for (const auto& [place, tile] : trail_->dust().tiles()) {

@@ -1,7 +1,7 @@
 // Smoke, fire and dust as a fluid: an Eulerian solver in a box, whose density is rendered by ray casting.
 //
-// The box may follow the vehicle; solids, the vehicle and the ground are voxelised each step. The wheels raise as much
-// dust as the shared cloud gains (dust_mass.h).
+// The box may follow the vehicle; solids, the vehicle and the ground are voxelised in each step. The wheels raise as
+// much dust as the shared cloud gains (dust_mass.h).
 //
 // Source: Senger2009, 4 (after Crane2007). Departs: reports/decisions/0006-fluid-grid.md.
 #pragma once
@@ -23,11 +23,11 @@ namespace dustbench::grid_fluid {
 
 struct GridFluidSettings {
     FluidSetup setup;
-    flow::FluidSettings solver;  ///< its box has no position yet
+    flow::FluidSettings solver;  ///< the position of its box is not set yet
     FlowScheme scheme = FlowScheme::ours;
     SolverBackend solverBackend = SolverBackend::cpu;
     int framesPerStep = 1;
-    bool trail = true;  ///< keeps the dust that a box that follows the vehicle leaves behind
+    bool trail = true;  ///< keeps the dust that leaves a box that follows the vehicle
     raycast::RaycastSettings picture;
 };
 
@@ -36,7 +36,7 @@ struct FlowExtremes {
     double speedMetresPerSecond = 0;
     double cellsPerStep = 0;         ///< the Courant number
     double divergencePerStep = 0;    ///< maximum relative volume gain of a cell in a step
-    std::int64_t unsolvedSteps = 0;  ///< in which the pressure solver ran out of cycles
+    std::int64_t unsolvedSteps = 0;  ///< steps in which the pressure solver ran out of cycles
 };
 
 class GridFluid final : public Method {
@@ -58,24 +58,23 @@ class GridFluid final : public Method {
 
  private:
     void simulate(const Frame& frame);
-    /// True if the pressure is solved until its tolerance, false if by a fixed number of sweeps.
+    /// True if the pressure is solved to a tolerance, false if by a fixed number of sweeps.
     [[nodiscard]] bool solvesPressure() const {
         return settings_.scheme == FlowScheme::ours && settings_.solver.pressure == flow::PressureMethod::multigrid;
     }
     /// Optical mass of the fluid relative to that of the shared dust; empty if the box does not follow the vehicle.
     [[nodiscard]] std::optional<double> massKept(const Puffs& dust) const;
-    /// Noise at the grid's scale of the stored numbers (flow/grid_noise.h).
+    /// Grid-scale noise of the stored values (flow/grid_noise.h).
     [[nodiscard]] double noiseOf(flow::Lane lane) const;
     /// Σ density·volume, of box and trail.
     [[nodiscard]] double amountM3() const;
-    /// Share of the mass that the sources raised and that has not died of age, and that box and trail do not hold, or
-    /// hold too much of; empty without a trail, or if the sources' mass is not known.
+    /// Relative error of the mass in box and trail: missing from, or in excess of, the mass raised by the sources that
+    /// has not died of age. Empty without a trail, or if the sources' mass is unknown.
     [[nodiscard]] std::optional<double> massLost() const;
     void follow(const scene::VehicleState& vehicle);
     void placeSolids(const scene::SceneState& state);
     void requireSourcesInside(const scene::SceneState& state);
-    /// Density or reaction as it is seen: corrections without a limit pull it below 0 here and there, and nothing is
-    /// there.
+    /// Density or reaction for display: values that corrections without a limit pull below 0 become 0.
     void gatherSeen(flow::Lane lane, std::span<float> to) const;
     void show();
     void volumeOfTrail(VolumeVisitor& visitor) const;
@@ -92,14 +91,14 @@ class GridFluid final : public Method {
     std::optional<raycast::GridRaycast> picture_;
     std::optional<FluidTrail> trail_;
     std::optional<TrailPicture> trailPicture_;
-    bool solidsStandStill_ = false;  ///< and the solver already has them
+    bool solidsStandStill_ = false;  ///< and the solver already has the solids
     int framesDue_ = 0;
     double secondsDue_ = 0, dustDueM2_ = 0;
     std::int64_t steps_ = 0;
     FlowExtremes extremes_;
 };
 
-/// What the method declares; the registry asks for it.
+/// Called by the registry.
 [[nodiscard]] MethodInfo describe();
 
 }  // namespace dustbench::grid_fluid

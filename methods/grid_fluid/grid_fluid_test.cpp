@@ -97,7 +97,7 @@ TEST(DustMass, IsThatOfTheSharedCloudWhileAllIsWithinTheBox) {
     EXPECT_LE(fact("flow_divergence"), 1.01 * static_cast<double>(settings.solver.divergencePerStep));
     for (const char* noise : {"flow_noise_speed", "flow_noise_density"}) {
         EXPECT_GT(fact(noise), 0) << noise;
-        EXPECT_LT(fact(noise), 0.05) << noise;  // of random numbers it is 0.2
+        EXPECT_LT(fact(noise), 0.05) << noise;  // random numbers give 0.2
     }
 }
 
@@ -186,7 +186,7 @@ TEST(GridFluid, KeepsTheDustThatItsBoxLeavesBehind) {
         method.report(drive.frame(), facts);
         return facts;
     };
-    // Of dust of one rate and lifetime T, after t: rate·T·(1 − e^(−t/T)) of rate·T.
+    // Dust of constant rate and lifetime T reaches rate·T·(1 − e^(−t/T)) of rate·T after t.
     const double expected = 1 - std::exp(-2.5 / 4);
     const FactInfo& lost = *std::ranges::find(info.facts, "mass_lost", &FactInfo::name);
     for (const SolverBackend solver : {SolverBackend::cpu, SolverBackend::openGl}) {
@@ -196,7 +196,7 @@ TEST(GridFluid, KeepsTheDustThatItsBoxLeavesBehind) {
     }
     EXPECT_FALSE(lost.valid.contains(0.011)) << "a run that loses more is not valid";
     const Facts without = factsAfter(SolverBackend::cpu, false, 150);
-    EXPECT_FALSE(without.value("mass_lost")) << "without a trail it promises nothing";
+    EXPECT_FALSE(without.value("mass_lost")) << "without a trail there is no such value";
     EXPECT_LT(std::get<double>(without.value("mass_kept").value()), 0.6 * expected);
 }
 
@@ -320,7 +320,7 @@ TEST(GridFluid, RefusesWhatCannotFlow) {
     EXPECT_NE(refusal(fast, 2).find("allowed: at most 100"), std::string::npos);
     moment.scene.solids = {{"rock", std::make_shared<scene::Mesh>(ball(8))}};
     moment.scene.solidPoses = {{glm::mat4(placed({0, 0, 0}, 20)), {}, {}}};
-    EXPECT_NE(refusal(settingsOf("plume", {16, 16, 16}), 1).find("a box filled by them"), std::string::npos);
+    EXPECT_NE(refusal(settingsOf("plume", {16, 16, 16}), 1).find("they fill the whole box"), std::string::npos);
 }
 
 TEST(Emitters, SwingAsASineWithinTheirChance) {
@@ -343,7 +343,7 @@ TEST(Emitters, SwingAsASineWithinTheirChance) {
         return found;
     };
     const std::vector<double> sine = strengths(0, 1), noisy = strengths(0.3f, 1);
-    // A sine of period 30 steps about 0.8 with an amplitude of 0.2: what it and its half period later add up to.
+    // A sine around 0.8 with amplitude 0.2 and a period of 30 steps: values half a period apart have a fixed sum.
     EXPECT_NEAR(*std::ranges::max_element(sine), 1, 0.002);
     EXPECT_NEAR(*std::ranges::min_element(sine), 0.6, 0.002);
     for (std::size_t step = 0; step + 30 < sine.size(); ++step) {

@@ -30,7 +30,7 @@ flow::FluidSource jet() {
     return source;
 }
 
-/// Of the stored faces; energy in m⁵/s², per density.
+/// State of the stored faces; energy in m⁵/s², divided by the density.
 struct Motion {
     double speed = 0, energy = 0;
     double height = 0;  ///< of the energy's centre
@@ -124,7 +124,7 @@ std::vector<Finding> measureAll() {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "Whether a flow stays bounded, and still flows, in steps of up to 20 cells.";
+    info.summary = "Tests whether a flow stays bounded, and keeps moving, in steps of up to 20 cells.";
     info.source = "Senger2009";
     info.run = [](ExperimentContext&) { return measureAll(); };
     return info;

@@ -21,7 +21,7 @@ using fire::Flake, fire::widthMetres;
 /// From here a cell's front and back differ by a tenth of a pixel at the picture's rim.
 constexpr double awayMetres = 400;
 
-/// Wide enough that linear interpolation between cells can hold them.
+/// Wide enough for linear interpolation between cells to represent them.
 std::vector<Flake> cloudOf(int cells, std::uint64_t seed) {
     constexpr int gaussians = 12;
     std::vector<Flake> cloud = fire::scatter(gaussians, 0, seed);
@@ -148,7 +148,7 @@ std::vector<Finding> blocksByTreatment(ExperimentContext& context) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "How much a grid's cells show as blocks in its picture, by filter, jitter and step.";
+    info.summary = "Measures how visible a grid's cells are as blocks in its picture, by filter, jitter and step.";
     info.source = "Senger2009";
     info.run = blocksByTreatment;
     return info;

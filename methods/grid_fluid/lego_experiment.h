@@ -1,9 +1,9 @@
-// Measures the look of building bricks that a grid's cells have in a picture, and what treats it (claim R30).
+// Measures how much a grid's cells look like building bricks in a picture, and the effect of remedies (claim R30).
 //
-// A cloud of Gaussians, whose picture is known exactly, is held in a grid as averages of its cells and ray cast from so
-// far away that the borders of cells lie between columns and rows of pixels. Blocks show as jumps there: the change of
-// the picture from one side of a border to the other, less the exact picture's. The measure is the root mean square of
-// that over the exact picture's own changes at the same borders: 0 for the exact picture; 1 where a border adds as much
+// A cloud of Gaussians, whose picture is known exactly, is stored in a grid as averages over its cells. It is ray cast
+// from so far away that the borders of cells lie between columns and rows of pixels. Blocks show as jumps there: the
+// change of the picture across a border, minus that of the ground truth. The measure is the root mean square of these,
+// divided by that of the ground truth's changes at the same borders: 0 for the ground truth, 1 if a border adds as much
 // as the cloud itself changes.
 //
 // Units: metres. Threads: that of the device. Source: Senger2009, 3.1 and 4.3.2.
@@ -20,20 +20,20 @@ namespace dustbench::grid_fluid::lego {
 
 inline constexpr int pixelsPerCell = 8;
 
-/// The measure, of alphas. Both pictures have a border of cells after each `pixelsPerCell` columns and rows.
+/// The measure for alphas. Both pictures have a border of cells after every `pixelsPerCell` columns and rows.
 [[nodiscard]] double blocksOf(const pictures::Image& picture, const pictures::Image& exact);
 
-/// The same of a cloud drawn by `seed` in a grid of `cells` × 2 `cells` × `cells`.
+/// The same for a cloud drawn by `seed` in a grid of `cells` × 2 `cells` × `cells`.
 [[nodiscard]] double blocksSeen(gpu::Device& device, const raycast::RaycastSettings& settings, int cells,
                                 std::uint64_t seed);
 
-/// The experiment `lego`. BACKEND: gl, cpu; geometric means over clouds drawn by the seed, at half a cell a step
-/// without jitter unless said otherwise:
+/// The experiment `lego`. BACKEND: gl, cpu; geometric means over clouds drawn by the seed, with steps of half a cell
+/// without jitter unless stated otherwise:
 ///     blocks_FILTER_BACKEND    FILTER: nearest, linear, cubic
-///     FILTER_BACKEND           the same over that of nearest
-///     jitter_BACKEND           nearest with jitter, over nearest
-///     finer_BACKEND            nearest at a sixteenth of a cell a step, over nearest
-///     coarser_BACKEND          nearest at a cell a step, over nearest
+///     FILTER_BACKEND           the same divided by that of nearest
+///     jitter_BACKEND           nearest with jitter, divided by nearest
+///     finer_BACKEND            nearest with steps of a sixteenth of a cell, divided by nearest
+///     coarser_BACKEND          nearest with steps of a cell, divided by nearest
 [[nodiscard]] ExperimentInfo describe();
 
 }  // namespace dustbench::grid_fluid::lego

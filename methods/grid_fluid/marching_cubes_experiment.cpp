@@ -7,10 +7,10 @@
 namespace dustbench::grid_fluid::marching_cubes {
 namespace {
 
-/// Where each corner of the cube goes; a corner's bits are its x, y and z.
+/// The image of each corner of the cube; a corner's bits are its x, y and z.
 using CornerMap = std::array<int, 8>;
 
-/// The 48 ways to lay the cube's axes onto themselves; 24 of them are turns.
+/// The 48 symmetries of the cube; 24 of them are rotations.
 std::vector<CornerMap> symmetries(bool withMirrors) {
     std::vector<CornerMap> maps;
     std::array<int, 3> axes{0, 1, 2};
@@ -58,7 +58,7 @@ int classesOf(bool withMirrors, bool withExchange) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "How many ways there are for a surface to cross a cell.";
+    info.summary = "Counts the ways in which a surface can cross a cell.";
     info.source = "Senger2009";
     info.run = [](ExperimentContext&) {
         const auto counted = [](const char* quantity, bool withMirrors, bool withExchange) {

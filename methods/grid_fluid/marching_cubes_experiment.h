@@ -1,5 +1,5 @@
-// Counts the ways in which a surface crosses a cell whose corners are within or without: 2⁸, and those that turns of
-// the cube, its mirror images and an exchange of within and without do not make of each other (claim R36).
+// Counts the ways in which a surface crosses a cell whose corners are inside or outside: 2⁸, and the classes under
+// rotations and reflections of the cube and an exchange of inside and outside (claim R36).
 //
 // Threads: pure. Source: Senger2009, 3.3; Lorensen1987.
 #pragma once
@@ -13,7 +13,7 @@ namespace dustbench::grid_fluid::marching_cubes {
 
 /// The experiment `marching_cubes`:
 ///     turns_and_exchange    as the algorithm counts them
-///     turns                 control: inside and outside told apart
+///     turns                 control: inside and outside distinguished
 ///     turns_mirrors_and_exchange
 [[nodiscard]] ExperimentInfo describe();
 

@@ -49,7 +49,7 @@ void MeshCells::cross(const Sweep& sweep, const glm::dvec3& a, const glm::dvec3&
                       const Take& take) {
     const glm::dvec3 minimum = glm::min(glm::min(a, b), c), maximum = glm::max(glm::max(a, b), c);
     const glm::dvec3 size(sweep.cells);
-    // Triangles next to the box cross none of its rows; those in front of it or behind it still count.
+    // Triangles next to the box do not cross any row; those in front of it or behind it still count.
     if (maximum.y < 0 || maximum.z < 0 || minimum.y > size.y || minimum.z > size.z) return;
     const auto firstOf = [](double value) { return std::max(0, static_cast<int>(std::ceil(value - 0.5))); };
     const int firstJ = firstOf(minimum.y), firstK = firstOf(minimum.z);
@@ -101,8 +101,7 @@ void MeshCells::add(const scene::Mesh& mesh, const glm::dmat4& toCells, std::uin
     }
     if (velocities.empty()) return;
     finish();
-    // Not before all of its cells are known: the rays along one axis may find a wall whose speed those along another
-    // have.
+    // Only after all cells are known: the rays along one axis may find a wall whose speed comes from another axis.
     velocities_.resize(bodies_.size());
     known_.assign(bodies_.size(), 0);
     alongEachAxis([&](int axis) {
@@ -112,7 +111,7 @@ void MeshCells::add(const scene::Mesh& mesh, const glm::dmat4& toCells, std::uin
     });
 }
 
-/// Sorts them by rows; `velocities`: of the vertices, or none.
+/// Sorts the crossings by rows; `velocities`: those of the vertices, or none.
 void MeshCells::findCrossings(const Sweep& along, std::span<const std::uint32_t> indices,
                               std::span<const glm::vec3> velocities) {
     crossings_.clear();
@@ -124,7 +123,7 @@ void MeshCells::findCrossings(const Sweep& along, std::span<const std::uint32_t>
             continue;
         }
         cross(along, a, b, c, [&](const glm::dvec3& place, const glm::dvec3& normal) {
-            // Its weights: the areas across from the corners, as shares of the whole.
+            // Barycentric weights: the areas opposite the corners, as shares of the triangle.
             const double whole = glm::dot(normal, normal);
             const double ofA = glm::dot(glm::cross(c - b, place - b), normal) / whole;
             const double ofB = glm::dot(glm::cross(a - c, place - c), normal) / whole;
@@ -157,7 +156,7 @@ void MeshCells::sweep(std::span<const std::uint32_t> indices, int axis, std::uin
     });
 }
 
-/// The speed along the rays is that of the surface; across them, only where no other ray gives it.
+/// Along the rays, a cell takes the speed of the surface; across them, only if no other ray provides it.
 void MeshCells::setVelocities(const Sweep& along, int axis, std::span<const Crossing> crossings, std::uint8_t body) {
     const auto limit = [&](float x) {
         return static_cast<int>(std::clamp(x, 0.0f, static_cast<float>(along.cells.x)));
@@ -174,8 +173,8 @@ void MeshCells::setVelocities(const Sweep& along, int axis, std::span<const Cros
     }
 }
 
-/// At a cell's centre: that of the surface between it and its neighbour; of both if it is so on either side; between
-/// two farther ones in proportion.
+/// Velocity at a cell's centre: that of the surface between it and its neighbour, the mean if there is one on either
+/// side, or interpolated between two more distant ones.
 glm::vec3 MeshCells::velocityAt(float x, std::span<const Crossing> crossings) const {
     const auto right = std::ranges::lower_bound(crossings, x, {}, &Crossing::x);
     const auto of = [&](auto crossing) { return crossingVelocities_[crossing->number]; };
@@ -194,7 +193,7 @@ void MeshCells::fillThinWalls(const Sweep& sweep, std::span<const Crossing> cros
     for (std::size_t n = 1; n < crossings.size(); ++n) {
         const Crossing &entered = crossings[n - 1], &left = crossings[n];
         if (entered.inwards != 1 || left.inwards != -1 || glm::dot(entered.normal, left.normal) > opposed) continue;
-        if (left.x - entered.x >= 1) continue;  // a centre lies in it; a shorter one's is that of its middle's cell
+        if (left.x - entered.x >= 1) continue;  // a centre is in it; shorter intervals take the cell of their middle
         const int i = static_cast<int>(std::floor(0.5f * (entered.x + left.x)));
         if (i >= 0 && i < sweep.cells.x)
             bodies_[entered.row + static_cast<std::size_t>(i) * static_cast<std::size_t>(sweep.strides.x)] = body;

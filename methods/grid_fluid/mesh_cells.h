@@ -1,22 +1,22 @@
 // Finds the cells of a grid inside closed meshes, by rays along x through the centres of each row of cells.
 //
-// A ray counts the surfaces that it enters and leaves, from both of its ends; a cell is inside if both counts agree, so
-// meshes may overlap, and open panels on a surface do no harm.
+// A ray counts the surfaces that it enters and leaves, from both ends; a cell is inside if both counts agree. So meshes
+// may overlap, and open panels on a surface do no harm.
 //
-// A wall that passes between two centres takes the cell that its middle is in: rays along x, y and z find the places
+// A wall that passes between two centres fills the cell that contains its middle. Rays along x, y and z find the places
 // where a mesh is entered and left between neighbouring centres, through surfaces that face away from each other. So no
 // path from cell to cell through their faces leads through a wall, however thin. A smooth rim, whose surfaces face the
-// same way there, takes none.
+// same way there, does not fill a cell.
 //
-// Where a mesh deforms, the same rays give its cells the velocity that its surface has where they cross it,
-// interpolated from its vertices: along an axis each cell beside the surface has the speed of the surface between it
-// and its neighbour, or the mean of both sides where the mesh is but a cell thick. So what flows out of the cells'
-// faces is what the surface displaces, summed over the rays.
+// If a mesh deforms, the same rays give its cells the velocity of its surface at the crossings, interpolated from its
+// vertices. Along an axis, each cell next to the surface has the speed of the surface between it and its neighbour, or
+// the mean of both sides if the mesh is only one cell thick. So the outflow through the cells' faces equals the volume
+// displaced by the surface, summed over the rays.
 //
-// Units: cells; velocities m/s. Owns: a byte for each cell, booked, and a velocity once a mesh has some. Threads: one
-// writer.
-// Source: Crane2007, 30.2.4. Departs: rays by row instead of slices by the GPU's stencil; with a flow_gl::CellsOnRays
-// the GPU follows them, and finds the same cells.
+// Units: cells; velocities m/s. Owns: a byte for each cell, booked, and a velocity once a mesh has velocities. Threads:
+// one writer.
+// Source: Crane2007, 30.2.4. Departs: rays by row instead of slices by the GPU's stencil. With a flow_gl::CellsOnRays
+// the GPU traces them and finds the same cells.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ namespace dustbench::grid_fluid {
 
 class MeshCells {
  public:
-    /// With a `gpu`, which must outlive it, that finds the cells inside meshes.
+    /// With a `gpu`, which must outlive this, the GPU finds the cells inside meshes.
     MeshCells(glm::ivec3 cells, MemoryAccount& account, flow_gl::CellsOnRays* gpu = nullptr);
 
     void clear();
@@ -41,21 +41,21 @@ class MeshCells {
     /// those of the positions along the grid's axes, of a mesh that deforms.
     void add(const scene::Mesh& mesh, const glm::dmat4& toCells, std::uint8_t body,
              std::span<const glm::vec3> velocities = {});
-    /// Ends a series of meshes: only then are the cells those that were added.
+    /// Ends a series of meshes: only then are the cells complete.
     void finish();
     /// Sets one cell, for shapes that are not meshes; before the first mesh.
     void set(int i, int j, int k, std::uint8_t body) { bodies_[index(i, j, k)] = body; }
 
     /// A number for each cell, x fastest; 0: no body.
     [[nodiscard]] std::span<const std::uint8_t> bodies() const { return bodies_; }
-    /// Of the cells of meshes that deform; undefined elsewhere, and empty before the first such mesh.
+    /// Velocities of the cells of deforming meshes; undefined elsewhere, and empty before the first such mesh.
     [[nodiscard]] std::span<const glm::vec3> velocities() const { return velocities_; }
     [[nodiscard]] glm::ivec3 cells() const { return cells_; }
 
  private:
-    /// Rays along one axis; their places are turned so that it comes first.
+    /// Rays along one axis, with coordinates permuted so that this axis comes first.
     struct Sweep {
-        glm::ivec3 cells;    ///< along the rays, and numbers of rays
+        glm::ivec3 cells;    ///< number of cells along the rays, and numbers of rays
         glm::ivec3 strides;  ///< in `bodies_`
     };
     /// Intersection of a row's ray with a surface.
@@ -86,7 +86,7 @@ class MeshCells {
 
     glm::ivec3 cells_;
     flow_gl::CellsOnRays* gpu_;
-    bool areOnGpu_ = false;  ///< and newer there than in `bodies_`
+    bool areOnGpu_ = false;  ///< the cells on the GPU are newer than `bodies_`
     LedgerVector<std::uint8_t> bodies_;
     LedgerVector<glm::vec3> velocities_;
     std::vector<glm::dvec3> places_;

@@ -52,7 +52,7 @@ TEST(MeshCells, TakeOverlapsAndOpenPanels) {
     MeshCells one({40, 24, 24}, ledger.account("cells")), other({40, 24, 24}, ledger.account("cells"));
     one.add(ball(16), placed({14, 12, 12}, 8), 1);
     other.add(ball(16), placed({24, 12, 12}, 8), 1);
-    // Lamps: a panel in front of either end, facing outwards.
+    // Lamps: a panel in front of each end, facing outwards.
     for (const float x : {5.9f, 32.1f}) {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         for (const glm::vec3& corner : {glm::vec3(x, 10, 10), {x, 14, 10}, {x, 14, 14}, {x, 10, 14}})
@@ -66,7 +66,7 @@ TEST(MeshCells, TakeOverlapsAndOpenPanels) {
         EXPECT_EQ(cells.bodies()[at], one.bodies()[at] | other.bodies()[at]) << at;
 }
 
-/// Cells that paths through faces lead to from the first cell without entering a body.
+/// Cells that can be reached from the first cell through faces, without entering a body.
 std::size_t reached(const MeshCells& cells) {
     const glm::ivec3 size = cells.cells();
     const auto at = [&](const glm::ivec3& cell) {
@@ -124,7 +124,7 @@ TEST(MeshCells, NoPathLeadsThroughAWallHoweverThin) {
         cells.clear();
         cells.add(block(glm::vec3(1)), glm::scale(turned, glm::dvec3(thickness, 80, 80)), 1);
         if (cells.bodies()[0] != 0) continue;
-        // Free cells on the first one's side.
+        // Free cells on the side of the first one.
         std::size_t near = 0, at = 0;
         const auto side = [&](const glm::dvec3& place) { return glm::dot(place - middle, glm::dvec3(turned[0])) > 0; };
         for (int k = 0; k < size.z; ++k)
@@ -132,7 +132,7 @@ TEST(MeshCells, NoPathLeadsThroughAWallHoweverThin) {
                 for (int i = 0; i < size.x; ++i, ++at)
                     if (cells.bodies()[at] == 0 && side(glm::dvec3(i, j, k) + 0.5) == side(glm::dvec3(0.5))) ++near;
         EXPECT_LE(reached(cells), near) << "a path leads through wall " << n;
-        EXPECT_GE(reached(cells) + 40, near) << "wall " << n << " closes off what it does not touch";
+        EXPECT_GE(reached(cells) + 40, near) << "wall " << n << " closes off cells that it does not touch";
         EXPECT_LE(filled(cells, 1), 2u * 24 * 22) << "wall " << n << " is more than two cells thick";
     }
 }

@@ -22,7 +22,7 @@ constexpr double edge = 0.1;
 constexpr double stepSeconds = 1.0 / 30;
 constexpr int steps = 50;
 constexpr double radius = 0.5;
-constexpr glm::dvec3 wallPlace{2.4, 1.2, 1.2};  ///< where the jet meets it
+constexpr glm::dvec3 wallPlace{2.4, 1.2, 1.2};  ///< point where the jet meets the wall
 
 std::size_t index(const glm::ivec3& cell) {
     return static_cast<std::size_t>(cell.x + cells.x * (cell.y + cells.y * cell.z));
@@ -84,7 +84,7 @@ Bodies wall(bool holed) {
     return bodies;
 }
 
-/// A solver, and what it stores.
+/// A solver and its stored state.
 class Flow {
  public:
     explicit Flow(bool asPublished) : asPublished_(asPublished) {
@@ -104,7 +104,7 @@ class Flow {
         solver_->gather(flow::density, density_);
     }
     [[nodiscard]] double density(const glm::ivec3& cell) const { return static_cast<double>(density_[index(cell)]); }
-    /// Of the face towards the previous cell along an axis; where speeds are stored at the centres, the mean of both.
+    /// Speed of the face towards the previous cell along an axis; the mean of both cells if speeds are at the centres.
     [[nodiscard]] double faceSpeed(const glm::ivec3& cell, int axis) const {
         const std::vector<float>& speeds = speeds_[static_cast<std::size_t>(axis)];
         const auto here = static_cast<double>(speeds[index(cell)]);
@@ -124,7 +124,7 @@ class Flow {
     std::vector<float> density_ = std::vector<float>(count_);
 };
 
-/// Through the faces between the ball's cells and others, relative to the ball, where it flows inwards.
+/// Inflow through the faces between the ball's cells and others, relative to the ball.
 double inflow(const Flow& flow, const Bodies& ball, const glm::vec3& ballVelocity) {
     double sum = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -227,7 +227,7 @@ std::vector<Finding> measureBoth() {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "What flows into obstacles: air through a ball's surface, smoke into it and through a thin wall.";
+    info.summary = "Measures leaks into obstacles: air and smoke into a ball, smoke through a thin wall.";
     info.source = "Senger2009";
     info.run = [](ExperimentContext&) { return measureBoth(); };
     return info;

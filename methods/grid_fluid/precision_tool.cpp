@@ -1,5 +1,5 @@
-// `dustbench precision`: solves three problems on several grids, and compares the flows by error and time, those that
-// other solvers left in the same folder included.
+// `dustbench precision`: solves three problems on several grids, and compares the flows by error and time, including
+// flows that other solvers have left in the same folder.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -58,7 +58,7 @@ int countOf(const std::string& name, const std::string& text, int minimum, int m
     return static_cast<int>(*number);
 }
 
-/// What `read` makes of each word of a list with commas; of `nothing` an empty list.
+/// Applies `read` to each word of a list with commas; returns an empty list for `nothing`.
 template <typename Read>
 auto listOf(const std::string& text, const Read& read) {
     std::vector<decltype(read(text))> values;
@@ -156,20 +156,20 @@ ToolInfo describe() {
     ToolInfo info;
     info.summary = "Compare fluid solvers by error and time on three problems";
     info.manual =
-        "Solves the problems on each grid with each scheme, and on the grid of the reference by `revert`, unless its\n"
-        "flow is there. `revert_midstep` is `revert` along the velocity of the middle of the step. Then compares all\n"
-        "flows of the folder, those of other solvers included, and writes points.csv. Formats: "
+        "Solves the problems on each grid with each scheme, and on the reference grid with `revert` unless that flow\n"
+        "exists. `revert_midstep` is `revert` with the velocity at the middle of the step. Then compares all flows in\n"
+        "the folder, including those of other solvers, and writes points.csv. Formats: "
         "methods/grid_fluid/precision/precision_folder.h, staggered_flow.h.\n"
         "Example: dustbench precision out/precision --cells 16,32";
     info.options = {
-        {"folder", "DIR", "of the flows, times.csv and points.csv; made if missing"},
-        {"--problem", "LIST", "of plume, ring, car; `nothing` solves none; default: all"},
-        {"--cells", "LIST", "across the box, multiples of 8; default: 16,32,64"},
-        {"--scheme", "LIST", "of revert_midstep, revert, clamp, unlimited, semi_lagrangian; default: all"},
+        {"folder", "DIR", "folder for the flows, times.csv and points.csv; created if missing"},
+        {"--problem", "LIST", "problems to solve: plume, ring, car, or `nothing`; default: all"},
+        {"--cells", "LIST", "cells across the box, multiples of 8; default: 16,32,64"},
+        {"--scheme", "LIST", "schemes: revert_midstep, revert, clamp, unlimited, semi_lagrangian; default: all"},
         {"--reference", "CELLS",
-         "grid of the references: the finest of each solver if it has so many; 0: none, and nothing is compared; "
+         "cells across the reference grid; a solver's finest flow is a reference if it has as many; 0: compares none; "
          "default: 128"},
-        {"--repetitions", "N", "how often each is solved, for its time; default: 1"}};
+        {"--repetitions", "N", "number of times each problem is solved, for its time; default: 1"}};
     info.run = compare;
     return info;
 }

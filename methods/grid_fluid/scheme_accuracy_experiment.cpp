@@ -105,7 +105,7 @@ double enstrophyOf(const CoarseFlow& flow, int edge) {
     return sum;
 }
 
-/// Σ|u|² less that of the means over 2³ cells.
+/// Σ|u|² minus that of the means over 2³ cells.
 double detailOf(const CoarseFlow& flow, int edge) {
     double sum = 0;
     for (const std::vector<float>& speed : flow.velocity)
@@ -181,8 +181,8 @@ Finding geometricMeanOf(const std::string& name, const std::vector<double>& loga
     return finding;
 }
 
-/// Processor time of MacCormack's steps to that of semi-Lagrangian's in a grid of `refinement` times the cells along
-/// each axis, by turns in one thread.
+/// Processor time of MacCormack's steps, divided by that of semi-Lagrangian steps in a grid of `refinement` times the
+/// cells along each axis; measured alternately in one thread.
 std::vector<double> timeRatios(int cells, int refinement, int pairs) {
     std::vector<double> ratios;
     tbb::task_arena(1).execute([&] {
@@ -204,7 +204,7 @@ std::vector<double> timeRatios(int cells, int refinement, int pairs) {
     return ratios;
 }
 
-/// Bytes of MacCormack's solver to those of semi-Lagrangian's in a grid twice as fine.
+/// Bytes of MacCormack's solver, divided by those of the semi-Lagrangian solver in a grid twice as fine.
 double bytesRatio(int cells) {
     const auto bytesOf = [&](AdvectionScheme scheme, int edge) {
         MemoryLedger ledger;
@@ -239,7 +239,7 @@ std::vector<Finding> measureAll(ExperimentContext& context) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "How much finer a grid MacCormack advection is worth, and what it costs.";
+    info.summary = "Measures how much finer a grid MacCormack advection is equivalent to, and its cost.";
     info.source = "Senger2009";
     info.run = measureAll;
     return info;

@@ -66,7 +66,7 @@ std::vector<float> depthsOf(const Sight& sight, const scene::View& view) {
     return depths;
 }
 
-/// `seen`: what the ray caster gets; the exact picture is always that of `sight`.
+/// `seen`: the input of the ray caster; the ground truth always belongs to `sight`.
 double maximumError(gpu::Device& device, const raycast::RaycastSettings& settings, const Sight& sight,
                     const Sight& seen) {
     const scene::View view = viewOf(sight);
@@ -104,7 +104,7 @@ double maximumSightError(gpu::Device& device, const raycast::RaycastSettings& se
 
 namespace {
 
-/// A ray caster that does not see the ball before the box.
+/// A ray caster that ignores the ball in front of the box.
 double errorOfUnseenBall(gpu::Device& device) {
     raycast::RaycastSettings settings;
     settings.stopAlpha = 1;
@@ -146,7 +146,7 @@ std::vector<Finding> measureBoxErrors(gpu::Device& device) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "The ray caster's error against the exact picture of a homogeneous box, before and behind solids.";
+    info.summary = "Measures the ray caster's error in a homogeneous box, with and without solids.";
     info.source = "Senger2009";
     info.run = [](ExperimentContext& context) { return measureBoxErrors(context.device()); };
     return info;

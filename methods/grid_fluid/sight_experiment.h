@@ -1,5 +1,5 @@
-// Checks that solids hide a volume correctly and that a camera inside it sees it correctly: the ray caster against the
-// exact picture of a homogeneous box (claim R32).
+// Checks that solids hide a volume correctly and that a camera inside it sees it correctly, by comparing the ray caster
+// with the exact solution for a homogeneous box (claim R32).
 //
 // Units: metres. Threads: that of the device. Source: Senger2009, 4.2.2 and 4.3.1.
 #pragma once
@@ -30,10 +30,10 @@ struct Sight {
                                        const std::vector<Sight>& sights);
 
 /// The experiment `sight`, with OpenGL's march (`_gl`) and the CPU's (`_cpu`), rays never ending early:
-///     free_…      the camera outside, nothing in its way
-///     solid_…     a ball before the box, within it, half within it, behind it
-///     inside_…    the camera within the box, so near to it that the near plane cuts its front, and with a ball
-///     solid_unseen  control: a ray caster that ignores the ball before the box
+///     free_…      the camera outside, with an unobstructed view
+///     solid_…     a ball in front of the box, within it, half within it, behind it
+///     inside_…    the camera within the box, so close to it that the near plane cuts its front, and with a ball
+///     solid_unseen  control: a ray caster that ignores the ball in front of the box
 /// Throws InputError if there is no OpenGL.
 [[nodiscard]] ExperimentInfo describe();
 

@@ -1,4 +1,4 @@
-// Solids for the tests of this folder.
+// Solids for the tests in this folder.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ inline glm::dmat4 placed(const glm::dvec3& middle, double scale) {
     return glm::scale(glm::translate(glm::dmat4(1), middle), glm::dvec3(scale));
 }
 
-/// A box with its middle at 0 and edges of these lengths.
+/// A box centred at 0 with edges of these lengths.
 inline scene::Mesh block(const glm::vec3& edges) {
     scene::Mesh mesh;
     for (int n = 0; n < 8; ++n) mesh.positions.push_back(edges * (glm::vec3(n & 1, n >> 1 & 1, n >> 2) - 0.5f));

@@ -9,16 +9,16 @@
 namespace dustbench::grid_fluid {
 namespace {
 
-/// A tile is left out if no ray through it meets more optical depth. The same of a box's cells across its border.
+/// A tile is omitted if no ray through it has more optical depth; so are the box's cells across its border.
 constexpr double unseenDepth = 1e-4;
-/// Light holds for the densities as uploaded: it is renewed when a tile has lost so much of them.
+/// Light is computed for the uploaded densities; it is renewed when a tile has less than this share of them left.
 constexpr double renewedShare = 0.95;
-/// Cells within which the box fades out: two lattices differ by an eighth of what they would at a sharp border.
+/// Cells within which the box fades out: two lattices then differ by an eighth of the difference at a sharp border.
 constexpr int fadingCells = 8;
-/// The box's name among the grids that cast shadows: no tile lies there.
+/// The box's identifier among the grids that cast shadows; no tile is there.
 constexpr CloudShade::Id theBox{std::numeric_limits<int>::max(), 0, 0};
 
-/// Layers of empty cells around a shown grid. There are none below a floor, where the lowest cells go on.
+/// Layers of empty cells around a displayed grid. There are none below a floor, where the lowest cells continue.
 struct Rim {
     Rim(raycast::Filter filter, bool onFloor) : before(filter == raycast::Filter::cubic ? 2 : 1), behind(before) {
         if (onFloor) before.y = 0;
@@ -106,8 +106,8 @@ void TrailPicture::upload(raycast::GridRaycast& picture, const Place& id, const 
         picture.upload(grid, [&](const glm::dvec3& place) { return shade_.arrivingAt(place, id); });
 }
 
-/// From the box's border inwards its cells keep a growing share of their density; the rest goes to the tiles' cells, by
-/// overlapping volumes.
+/// From the box's border inwards, cells keep an increasing share of their density; the rest goes to the tiles' cells,
+/// by overlapping volumes.
 void TrailPicture::fadeBox(const DustTrail& trail, const raycast::ShownGrid& box) {
     const glm::ivec3 cells = box.cells;
     boxHalf_ = 0.5 * box.spacingMetres * glm::dvec3(cells);
@@ -191,8 +191,8 @@ void TrailPicture::uploadTile(const Place& place, const DustTrail::Tile* tile, c
 
 void TrailPicture::draw(const scene::View& view, const gpu::Layer& layer) {
     const glm::dvec3 eye = view.camera.eye;
-    // A tile lies beside the box along the axis on which it is furthest from it. It is in front if the eye is there
-    // too.
+    // A tile is next to the box along the axis on which it is farthest from it. It is in front if the eye is on the
+    // same side.
     const auto isInFront = [&](const ShownTile& tile) {
         const glm::dvec3 from = tile.middle - boxMiddle_, beyond = glm::abs(from) - boxHalf_;
         const int axis = beyond.x >= beyond.y && beyond.x >= beyond.z ? 0 : beyond.y >= beyond.z ? 1 : 2;

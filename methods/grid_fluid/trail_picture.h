@@ -1,9 +1,9 @@
 // Draws a fluid's box and the trail behind it as one cloud, tile by tile.
 //
-// Each grid is shown with a rim of empty cells. Interpolation is linear in the cells' values, so the rims of neighbours
-// add up to what one grid would show. The wind moves the trail's lattice against the box's, which no rim makes up for:
-// within some cells of its border the box fades out, and lends to the tiles what it no longer shows. So no border is
-// seen. Light comes to each grid through all others (cloud_shade.h).
+// Each grid is drawn with a rim of empty cells. Interpolation is linear in the cells' values, so the rims of neighbours
+// add up to the picture of a single grid. The wind moves the trail's lattice relative to the box's, which a rim cannot
+// hide. So the box fades out within a few cells of its border and lends the missing density to the tiles, and no border
+// is visible. Light reaches each grid through all others (cloud_shade.h).
 // Units: metres. Frame: world. Owns: a picture of each tile. Threads: the OpenGL thread.
 #pragma once
 
@@ -21,20 +21,20 @@ namespace dustbench::grid_fluid {
 
 class TrailPicture {
  public:
-    /// `ofBox` must outlive it. `onFloor`: the ground is level at y = 0.
+    /// `ofBox` must outlive this. `onFloor`: the ground is level at y = 0.
     TrailPicture(raycast::GridRaycast& ofBox, const raycast::RaycastSettings& settings, const glm::vec3& toSun,
                  bool onFloor);
 
-    /// Takes over the box and the tiles that changed.
+    /// Uploads the box and the changed tiles.
     void show(const DustTrail& trail, const raycast::ShownGrid& box);
     /// Draws tiles and box, from far to near.
     void draw(const scene::View& view, const gpu::Layer& layer);
 
     [[nodiscard]] std::int64_t primitives() const { return primitives_; }
-    /// Of the tiles.
+    /// Memory of the tiles on the GPU.
     [[nodiscard]] std::size_t gpuBytes() const;
 
-    /// The densities as shown, without rims: of the box, and of the cells that it lends. For tests.
+    /// The displayed densities without rims: those of the box, and those lent to tiles. For tests.
     [[nodiscard]] const std::vector<float>& faded() const { return faded_; }
     [[nodiscard]] const std::map<std::array<int, 3>, std::vector<float>>& lent() const { return lent_; }
 
@@ -42,15 +42,15 @@ class TrailPicture {
     struct ShownTile {
         std::unique_ptr<raycast::GridRaycast> picture;
         std::uint64_t version = 0;
-        double share = 0;   ///< of the tile when it was taken over
-        bool lent = false;  ///< and something of the box's was in it
+        double share = 0;   ///< share of the tile at its upload
+        bool lent = false;  ///< it contained density lent by the box
         glm::dvec3 middle{0};
     };
     using Place = std::array<int, 3>;
     void fadeBox(const DustTrail& trail, const raycast::ShownGrid& box);
     [[nodiscard]] bool isSeen(const DustTrail::Tile& tile, double spacingMetres) const;
     [[nodiscard]] bool isLit() const { return settings_.shadowCells > 0; }
-    /// Finds `tileNow_` and what it is shown as; false if the tile is shown so already.
+    /// Computes `tileNow_` and its displayed grid; returns false if the tile is displayed like that already.
     bool find(const DustTrail& trail, const Place& place, const DustTrail::Tile* tile, raycast::ShownGrid& grid);
     void upload(raycast::GridRaycast& picture, const Place& id, const raycast::ShownGrid& grid);
     void uploadTile(const Place& place, const DustTrail::Tile* tile, const raycast::ShownGrid& grid);

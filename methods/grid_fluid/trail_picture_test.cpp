@@ -1,4 +1,4 @@
-// Whether the border between a fluid's box and its trail can be seen.
+// Tests that the border between a fluid's box and its trail is invisible.
 #include "methods/grid_fluid/trail_picture.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace dustbench::grid_fluid {
 namespace {
 
-/// Evenly filled, with more of the same beyond its side towards −x, in a lattice that the wind has moved.
+/// Evenly filled, and continued beyond its side towards −x in a lattice that the wind has moved.
 struct EvenDust {
     explicit EvenDust(float windMetresPerSecond) : trail({h, {windMetresPerSecond, 0, 0}, 0}, ledger.account("trail")) {
         trail.pass(1);
@@ -34,7 +34,7 @@ struct EvenDust {
 };
 
 TEST(TrailPicture, ShowsNoBorderBetweenBoxAndTrailHoweverTheirLatticesLie) {
-    // Looks along the border, where a border shows most.
+    // Looks along the border, where it would be most visible.
     draw::TestCanvas canvas(480, 240, {0, 0.8, 8}, {0, 0, -1});
     for (const float wind : {0.0f, 0.03f, 0.05f, -0.08f})
         for (const raycast::Renderer renderer : {raycast::Renderer::raycast, raycast::Renderer::slices}) {
@@ -51,7 +51,7 @@ TEST(TrailPicture, ShowsNoBorderBetweenBoxAndTrailHoweverTheirLatticesLie) {
             const pictures::Image again =
                 canvas.picture([&](const gpu::Layer& layer) { picture.draw(canvas.view, layer); });
             EXPECT_EQ(image.pixels, again.pixels);
-            // Within 1 m on either side of the border, which is in the middle, all rays go through 1.6 m.
+            // Within 1 m of the border, which is in the middle, all rays pass through 1.6 m.
             std::vector<float> depths;
             for (int x = 0; x < 480; ++x) {
                 const double atDust = glm::dvec3(canvas.view.rayDirection(x + 0.5, 120.5)).x * 8;

@@ -38,7 +38,7 @@ void main() {
         float middle = puff.foot + profile.mean * puff.metres;
         mean = transmittance(whole, b, middle);
 #if SAMPLES == 3
-        // Three points of the variance's own: exact for polynomials of the fifth degree over a whole puff.
+        // Three-point Gaussian quadrature: exact for polynomials of degree five over a whole puff.
         float apart = sqrt(3.0 * profile.variance) * puff.metres;
         mean = (4.0 * mean + transmittance(whole, b, middle - apart) + transmittance(whole, b, middle + apart)) / 6.0;
 #endif

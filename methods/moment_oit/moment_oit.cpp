@@ -20,7 +20,7 @@ std::map<std::string, std::string> definitionsOf(const Settings& settings) {
     return names;
 }
 
-/// What the shaders' `warped` subtracts, and multiplies the rest with.
+/// Offset and factor of the shaders' `warped`: it subtracts x, then multiplies by y.
 glm::vec2 warpUniform(const WarpedDepth& depth) {
     const double from = depth.warp == Warp::log ? std::log(depth.nearestMetres) : depth.nearestMetres;
     const double to = depth.warp == Warp::log ? std::log(depth.farthestMetres) : depth.farthestMetres;
@@ -99,23 +99,23 @@ MethodInfo describe() {
     MethodInfo info;
     info.title = "Moment-based OIT";
     info.summary =
-        "Puffs added up in any order in two passes: moments of the depth along each ray, then colours by their "
+        "Adds up puffs in any order in two passes: moments of the depth along each ray, then colours weighted by "
         "transmittance.";
     info.source = "Munstermann2018";
     info.takesLights = true;
-    info.parameters.choice("moments", "6", {"4", "6"}, "power moments of a pixel's depth, besides the whole of it")
+    info.parameters.choice("moments", "6", {"4", "6"}, "power moments of a pixel's optical depth besides the total")
         .choice(
             "profile", Shape::puff, shapes,
-            "what a puff adds: the moments of its own extinction along the ray, or, as in the paper, those of a point")
-        .choice("samples", "1", {"1", "3"}, "places of a puff at which the transmittance before it is taken")
+            "moments that a puff adds: those of its extinction along the ray, or, as in the paper, those of a point")
+        .choice("samples", "1", {"1", "3"}, "points in a puff at which the transmittance in front of it is evaluated")
         .choice("warp", Warp::log, warps,
-                "how distances are mapped to moments: by their logarithm, as in the paper, or not")
+                "mapping of distances before their moments are taken: by the logarithm, as in the paper, or none")
         .real("overestimation", 0.5, 0, 1, "",
-              "where T lies between the bounds that the moments give: 0 at the brighter one, 1 at the darker one")
+              "position of T between the bounds given by the moments: 0 is the brighter one, 1 the darker one")
         .real("bias_factor", 1, 0, 10'000, "",
-              "factor of the paper's bias of the moments, 5e-7 of four and 5e-6 of six")
+              "factor on the paper's bias of the moments, 5e-7 for four and 5e-6 for six")
         .real("reach", 3.5, 2, 6, "deviations",
-              "half-side of a puff's quad, by its standard deviation; exp(-reach^2/2) of its depth is cut off");
+              "half-side of a puff's quad in standard deviations; exp(-reach^2/2) of its depth is cut off");
     info.parameters.preset("profile", "point", {{"overestimation", "0.25"}});
     info.create = [](const ParameterValues& values) {
         Settings settings;

@@ -1,12 +1,12 @@
-// Moment-based order-independent transparency: two passes add puffs up in any order. The first gives a few moments of
-// the optical depth along each pixel's ray, the second weights each puff's colour with the transmittance that the
-// moments give for its place.
+// Moment-based order-independent transparency: two passes add up puffs in any order. The first computes a few moments
+// of the optical depth along each pixel's ray. The second weights each puff's colour with the transmittance estimated
+// from the moments at its position.
 //
-// Source: Munstermann2018, 3. Departs: `profile=puff` takes a puff's own moments along the ray, cut by eye and scene in
-// closed form, in place of those of a point, weights it with its depth in place of its alpha, and may average T over
-// three places of it, and takes T halfway between its bounds in place of a quarter; distances are along the ray in
-// place of the camera's axis, between the nearest and the farthest puff; moments and sums are single precision; α is
-// that of the sum of depths.
+// Source: Munstermann2018, 3. Departs: `profile=puff` uses a puff's own moments along the ray, limited by eye and scene
+// in closed form, instead of those of a point. It weights a puff with its depth instead of its alpha, may average T
+// over three places in it, and takes T halfway between its bounds instead of at a quarter. Distances are along the ray
+// instead of the camera's axis, between the nearest and the farthest puff. Moments and sums are single precision. α
+// follows from the sum of depths.
 #pragma once
 
 #include <optional>
@@ -25,16 +25,16 @@ enum class Shape { puff, point };
 inline constexpr Choices<Shape> shapes{{"puff", Shape::puff}, {"point", Shape::point}};
 
 struct Settings {
-    int moments = 6;  ///< besides the zeroth: 4 or 6
+    int moments = 6;  ///< 4 or 6, in addition to the zeroth
     Shape shape = Shape::puff;
-    int samples = 1;  ///< places of a puff at which T is taken: 1 or 3
+    int samples = 1;  ///< number of places in a puff at which T is evaluated: 1 or 3
     Warp warp = Warp::log;
-    double overestimation = 0.5;  ///< the paper's for points: 0.25
-    double biasFactor = 1;        ///< of the paper's bias
+    double overestimation = 0.5;  ///< the paper uses 0.25, for points
+    double biasFactor = 1;        ///< factor on the paper's bias
     double reachDeviations = 3.5;
 };
 
-/// Distances from the eye between which the puffs before it lie, at least 1 % apart.
+/// Range of distances from the eye that contains the puffs in front of it; its ends are at least 1 % apart.
 [[nodiscard]] WarpedDepth depthRange(const Puffs& dust, const scene::View& view, Warp warp);
 
 class MomentOit final : public Method {

@@ -1,4 +1,4 @@
-// Moments: a frame of 640×480 pixels of puffs before an eye, of one colour and of several.
+// Benchmarks moments: a frame of 640×480 pixels of puffs in front of an eye, of one colour and of several.
 #include <benchmark/benchmark.h>
 
 #include <random>

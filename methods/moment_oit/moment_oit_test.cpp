@@ -121,7 +121,7 @@ TEST(MomentOit, DrawsWhatThePlainMomentsGive) {
                     }
                     most = std::max(most, plain.a);
                 }
-            // With the paper's bias, rounding to single precision shows where a few puffs are all that there is.
+            // With the paper's bias, rounding to single precision is visible where a ray meets only a few puffs.
             EXPECT_LT(largest, biasFactor > 1 ? 1e-5 : 2e-4) << settings.moments;
             EXPECT_LT(sum / values, biasFactor > 1 ? 1e-6 : 3e-6);
             EXPECT_GT(most, 0.5);
@@ -158,11 +158,11 @@ TEST(MomentOit, BlendsAsManyLayersAsMomentsHoldTwiceAsTheOperatorOverDoes) {
             for (const std::size_t layers : {std::size_t{1}, static_cast<std::size_t>(moments) / 2}) {
                 Cloud cloud(layers, false);
                 const glm::vec3 ahead = glm::vec3(glm::normalize(cloud.view.camera.target - cloud.view.camera.eye));
-                // In reverse, so that the order of drawing is no help.
+                // In reverse, so that the drawing order does not help.
                 for (std::size_t i = 0; i < layers; ++i)
                     cloud.place(layers - 1 - i, cloud.at(distances[i] * ahead), 0.25f * distances[i] / 6, opacities[i],
                                 glm::vec3(colours[i]));
-                // Before a surface, not within it: T is continuous there if nothing of it counts.
+                // In front of a surface, not within it: T is continuous there if the surface has no effect.
                 const bool isPoint = shape == Shape::point;
                 const Settings settings{.moments = moments, .shape = shape, .overestimation = isPoint ? 0.0 : 0.5};
                 const pictures::Image image = cloud.drawn(settings);
@@ -188,7 +188,7 @@ TEST(MomentOit, BlendsAsManyLayersAsMomentsHoldTwiceAsTheOperatorOverDoes) {
 TEST(MomentOit, ComesCloserToTheExactPictureThanTheMeanOfColours) {
     Cloud cloud(60, false, 4);
     cloud.dust.keepOneColour(false);
-    for (std::size_t i = 0; i < cloud.dust.size(); ++i) {  // red before blue
+    for (std::size_t i = 0; i < cloud.dust.size(); ++i) {  // red in front of blue
         cloud.dust.opacity[i] = 0.5f + 0.3f * cloud.dust.opacity[i];
         cloud.dust.red[i] = cloud.dust.z[i] > -12 ? 1.0f : 0.0f;
         cloud.dust.green[i] = 0.2f;

@@ -1,5 +1,5 @@
-// First pass: the moments of all puffs before the scene. Source: Munstermann2018, 3.1.
-// Departs: a puff's own moments along the ray in place of those of a point.
+// First pass: the moments of all puffs in front of the scene. Source: Munstermann2018, 3.1.
+// Departs: a puff's own moments along the ray instead of those of a point.
 flat in vec4 centre;
 flat in float logDepth;
 uniform vec4 rays;

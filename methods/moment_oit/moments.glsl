@@ -1,8 +1,8 @@
-// Moments of the optical depth along a ray, and the transmittance that they bound. MOMENTS is 4 or 6; of b[0..MOMENTS],
-// b[0] is the whole depth. The plain version is plain_moments.cpp.
-uniform vec2 warp;  // WARP_LOG: ln of the nearest distance, 2/(ln farthest − ln nearest); else distances alike
+// Moments of the optical depth along a ray, and the transmittance that they bound. MOMENTS is 4 or 6; b[0] of
+// b[0..MOMENTS] is the total depth. The reference implementation is plain_moments.cpp.
+uniform vec2 warp;  // WARP_LOG: ln of the nearest distance, 2/(ln farthest − ln nearest); otherwise the same without ln
 
-/// A distance in −1..1.
+/// Maps a distance to −1..1.
 float warped(float metres) {
 #ifdef WARP_LOG
     return (log(metres) - warp.x) * warp.y - 1.0;
@@ -48,7 +48,7 @@ Profile profileOf(PuffOnRay puff) {
     return profile;
 }
 
-/// The moments of a puff: bⱼ = ∫ σ(t)·z(t)ʲ dt, with z linearised at the mean, or as if all of it lay there.
+/// The moments of a puff: bⱼ = ∫ σ(t)·z(t)ʲ dt, with z linearised at the mean, or as if the whole depth were there.
 void momentsOf(PuffOnRay puff, Profile profile, out float b[MOMENTS + 1]) {
     float middle = max(puff.foot + profile.mean * puff.metres, leastMetres);
 #ifdef POINTS

@@ -1,4 +1,4 @@
-// The plain moments against quadrature, theorems about them, and the closed-form transmittance.
+// Checks the plain moments against quadrature, theorems about moments, and the closed-form transmittance.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 using Ray = std::vector<RayPuff>;
 
-/// Puffs along one ray, some cut by eye or scene.
+/// Puffs along one ray, some limited by eye or scene.
 Ray randomRay(std::mt19937& random, int count, double sceneMetres) {
     std::uniform_real_distribution<double> uniform(0, 1);
     Ray ray;
@@ -89,7 +89,7 @@ TEST(Moments, OneSurfaceDimsWhatLiesBehindItAndNothingBefore) {
     EXPECT_NEAR(transmittance(b, depth.at(9.5), biasOf(4), 0.25), std::exp(-1.5), 2e-3);
 }
 
-/// The theorem of Markov: with moments of the very measure and no bias, nothing lies outside the bounds.
+/// Markov's theorem: with the exact moments of a measure and no bias, T never lies outside the bounds.
 TEST(Moments, BoundTheTransmittanceFromBothSides) {
     std::mt19937 random(3);
     const WarpedDepth depth{Warp::linear, 0, 44};
@@ -127,11 +127,11 @@ TEST(Moments, ComeCloseToTheTransmittanceOfPuffs) {
     const double four = meanError(4, false, 0.5), six = meanError(6, false, 0.5);
     EXPECT_LT(four, 0.04);
     EXPECT_LT(six, 0.8 * four);
-    // Between the bounds a medium's own transmittance lies in the middle; the paper's 0.25 is for surfaces.
+    // The transmittance of a medium lies halfway between the bounds; the paper's 0.25 is for surfaces.
     EXPECT_LT(six, 0.8 * meanError(6, false, 0.25));
 }
 
-/// Thick puffs that overlap: then it matters that a puff is no point.
+/// Thick, overlapping puffs: here a puff differs from a point.
 TEST(Moments, OfPuffsAreBetterThanOfPointsWherePuffsAreWide) {
     const WarpedDepth depth{Warp::log, 1, 30};
     std::mt19937 random(9);

@@ -127,7 +127,7 @@ double transmittance(std::span<const double> moments, double z, double bias, dou
     }
     std::vector<double> x{z};
     for (const double root : rootsOf(c)) x.push_back(root);
-    // Lagrange: the mean of the polynomial that is 1, 0 or `overestimation` at the points.
+    // Lagrange: the mean of the polynomial with the values 1, 0 or `overestimation` at the points.
     double share = 0;
     for (std::size_t i = 0; i < points; ++i) {
         const double value = i == 0 ? overestimation : x[i] < z ? 1 : 0;

@@ -1,9 +1,9 @@
-// Moments of the optical depth along a ray, and the transmittance that they bound: the plain version of moments.glsl
-// and transmittance.glsl, in double precision, for any even number of moments up to 6.
+// Moments of the optical depth along a ray, and the transmittance that they bound: the reference implementation of
+// moments.glsl and transmittance.glsl, in double precision, for any even number of moments up to 6.
 //
-// Units: metres; moments are of warped distances, which lie in −1..1. Threads: pure.
-// Source: Munstermann2018, 3. Departs: a puff's own moments, cut by eye and scene, in place of a point's; distance
-// along the ray in place of that along the camera's axis.
+// Units: metres; moments are of warped distances, which are in −1..1. Threads: pure.
+// Source: Munstermann2018, 3. Departs: a puff's own moments, limited by eye and scene, instead of a point's; distance
+// along the ray instead of along the camera's axis.
 #pragma once
 
 #include <array>
@@ -41,9 +41,9 @@ struct Profile {
 /// Bias for single precision: 5e-7 for four moments, 5e-6 for six. Source: Munstermann2018, 3.4.
 [[nodiscard]] double biasOf(int count);
 
-/// T(z) from b₀..b_count: exp(−b₀·share), share = what lies before z and `overestimation` of what lies at z, of the one
-/// measure with these moments that has a point at z. overestimation 0 and 1 give the sharp upper and lower bounds of
-/// every T with these moments. Source: Munstermann2018, 3.2.
+/// T(z) from b₀..b_count: exp(−b₀·share). `share` is the weight before z, plus `overestimation` times the weight at z,
+/// of the unique measure with these moments that has a point at z. overestimation 0 and 1 give the sharp upper and
+/// lower bounds of every T with these moments. Source: Munstermann2018, 3.2.
 [[nodiscard]] double transmittance(std::span<const double> moments, double z, double bias, double overestimation);
 
 }  // namespace dustbench::moment_oit

@@ -1,9 +1,9 @@
-// T(z) = exp(−b₀·share), share being that of the one measure with these moments that has a point at z: what lies before
-// z, and `overestimation` of what lies at z. Source: Munstermann2018, 3.2.
+// T(z) = exp(−b₀·share). `share` is the weight before z, plus `overestimation` times the weight at z, of the unique
+// measure with these moments that has a point at z. Source: Munstermann2018, 3.2.
 uniform float momentBias;
 uniform float overestimation;
 
-/// Normalised, and moved a little towards the moments of a measure that is far from singular. Munstermann2018, 3.4.
+/// Normalises, and moves a little towards the moments of a measure that is far from singular. Munstermann2018, 3.4.
 void biased(inout float b[MOMENTS + 1]) {
 #if MOMENTS == 4
     const float towards[5] = float[](1.0, 0.0, 0.375, 0.0, 0.375);
@@ -14,7 +14,7 @@ void biased(inout float b[MOMENTS + 1]) {
     b[0] = 1.0;
 }
 
-/// Roots of c₀ + c₁·x + c₂·x², both real, without the cancellation that a small c₂ brings about.
+/// Roots of c₀ + c₁·x + c₂·x², both real, without the cancellation that a small c₂ causes.
 vec2 rootsOfQuadratic(vec3 c) {
     float root = sqrt(max(c.y * c.y - 4.0 * c.x * c.z, 0.0));
     float q = -0.5 * (c.y + (c.y < 0.0 ? -root : root));
@@ -26,10 +26,10 @@ float apart(float a, float b) {
     return abs(a - b) > 1e-7 ? a - b : 1e-7;
 }
 
-// Below: H·c = (1, z, z² …) by H = L·D·Lᵀ, H being the Hankel matrix of the moments. The roots of Σ cᵢ·xⁱ are the other
-// points; one of them is far away where the others and z suffice for the moments. The polynomial that is 1 at the points
-// before z, 0 at those beyond, and `overestimation` at z, by divided differences; of which the moments give the mean.
-// `b` is normalised and biased.
+// Solves H·c = (1, z, z² …) by H = L·D·Lᵀ, where H is the Hankel matrix of the moments. The roots of Σ cᵢ·xⁱ are the
+// other points; one of them is far away if the others and z suffice for the moments. The share is the mean, from the
+// moments, of the polynomial that is 1 at the points before z, 0 at those beyond, and `overestimation` at z. It is
+// built by divided differences. `b` is normalised and biased.
 #if MOMENTS == 4
 float shareBefore(float b[MOMENTS + 1], float z) {
     float d1 = max(b[2] - b[1] * b[1], 1e-12);

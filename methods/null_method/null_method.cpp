@@ -23,12 +23,12 @@ void NullMethod::update(const Frame&) {
 MethodInfo describe() {
     MethodInfo info;
     info.title = "Null method";
-    info.summary = "Draws nothing: what remains of a frame is the world, the opaque scene and the harness.";
+    info.summary = "Draws nothing: a frame contains only the world, the opaque scene and the harness.";
     info.takesLights = true;
     info.parameters
         .integer("work", 0, 0, 1'000'000, "units", "1000 random numbers each, drawn in `build`: a load of known size")
         .choice("entry", "first", {"first", "second"},
-                "no effect: enters the same method twice, under two names that must then compare as equal");
+                "no effect: runs the same method under two names, which a comparison must report as equal");
     info.create = [](const ParameterValues& values) {
         return std::make_unique<NullMethod>(static_cast<std::uint64_t>(values.integer("work")));
     };

@@ -1,4 +1,4 @@
-// A method that draws nothing: the baseline cost of a frame, plus a load of known size to validate the timing.
+// A method that draws nothing: it measures the baseline cost of a frame, plus a load of known size to validate timing.
 #pragma once
 
 #include <cstdint>

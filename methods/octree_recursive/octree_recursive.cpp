@@ -11,14 +11,13 @@ MethodInfo describe() {
     MethodInfo info;
     info.title = "Octree dust, recursive";
     info.summary =
-        "Voxels of an octree that lists of particles are split down into: one recursion that also lists the voxels.";
+        "Splits the list of particles recursively into an octree's cells, and lists the voxels in the same recursion.";
     info.source = "Carr2006";
     info.takesLights = true;
     octree::declareDust(info);
     octree::declareLayout(info,
-                          "the paper's construction, with its cells found beforehand (lists are split by Morton codes) "
-                          "or as it is printed, or "
-                          "one of today: bricks of 16³ cells, Morton codes sorted in each, in parallel");
+                          "the paper's construction, with cells computed in advance (lists are split by Morton codes) "
+                          "or as printed; or a current one: bricks of 16³ cells in parallel, with sorted Morton codes");
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<octree::OctreeDust>(
             octree::dustSettings(values),

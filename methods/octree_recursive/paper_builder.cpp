@@ -19,7 +19,7 @@ struct Node {
     std::uint32_t block;  ///< holds its children
 };
 
-/// What the particles in one cube make of it.
+/// The state of one cube as determined by its particles.
 struct Voxel {
     bool exists = false;
     std::uint32_t particle = 0;  ///< that represents it
@@ -75,7 +75,7 @@ class PaperConstruction {
         voxel.exists = true;
         if (rule_.accumulates()) voxel.massSquareMetres += rule_.massSquareMetres(particle);
     }
-    /// Appends a voxel to the list that is rendered.
+    /// Appends a voxel to the list of rendered voxels.
     void list(const Voxel& voxel, const Node& node, NodeSlot& slot) {
         if (rule_.accumulates()) tree_.mutableMasses()[count_] = voxel.massSquareMetres;
         tree_.mutableVoxels()[count_++] = CellEntry(node.code, tree_.depth() - node.level, voxel.particle);

@@ -1,8 +1,8 @@
-// Recursive construction as the paper describes it: a node's particles are compared with the middle of the node and
-// copied to the lists of its eight cubes, one node after the other; voxels are listed on the way.
+// Recursive construction as in the paper: node by node, the particles are compared with the centre of the node and
+// copied to the lists of its eight cubes. Voxels are listed in the same pass.
 //
-// Owns: eight lists a level, booked on a ledger. Threads: one.
-// Source: Carr2006, 3.3 and 3.5. Departs: lists are reused by all nodes of a level, of which one is open at a time.
+// Owns: eight lists per level, booked on a ledger. Threads: one.
+// Source: Carr2006, 3.3 and 3.5. Departs: all nodes of a level share their lists, since one node is open at a time.
 #pragma once
 
 #include <vector>

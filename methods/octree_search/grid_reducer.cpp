@@ -14,7 +14,7 @@ void GridReducer::reduce(const BrickPartition& partition, const Brick& brick, co
         const std::uint32_t place = word.place(key);
         const std::uint64_t holder = best_[place];
         std::uint64_t best = std::max(holder, key);
-        if (word.samePriority(holder, key) && holder != 0)  // rare: the word does not hold enough to decide
+        if (word.samePriority(holder, key) && holder != 0)  // rare: the word does not contain enough bits to decide
             best = rule_.wins(word.particle(key), word.particle(holder)) ? key : holder;
         best_[place] = best;
         isTaken_[place] = 1;

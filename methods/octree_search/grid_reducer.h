@@ -1,5 +1,5 @@
-// Reduces a brick's particles to voxels through a small dense grid of cells: the search principle, with a path of one
-// address.
+// Reduces a brick's particles to voxels through a small dense grid of cells: the search principle with a single address
+// as the path.
 //
 // Threads: one at a time.
 #pragma once

@@ -1,5 +1,5 @@
-// The search principle: reads each particle's path off its coordinates, walks it from the root and adds missing nodes;
-// a separate traversal lists the voxels.
+// The search principle: derives each particle's path from its coordinates, follows it from the root and adds missing
+// nodes; a separate traversal lists the voxels.
 //
 // Owns: the voxels in order of discovery, booked on a ledger. Threads: one, as in the paper.
 // Source: Carr2006, 3.4 and 3.5.

@@ -11,14 +11,13 @@ MethodInfo describe() {
     MethodInfo info;
     info.title = "Octree dust, search";
     info.summary =
-        "Voxels of an octree that each particle is searched a place in: one pass from the root, one traversal.";
+        "Inserts each particle into an octree by searching from the root, and lists the voxels in one traversal.";
     info.source = "Carr2006";
     info.takesLights = true;
     octree::declareDust(info);
     octree::declareLayout(info,
-                          "the paper's construction, with its cells found beforehand (Morton codes are the paths) or "
-                          "as it is printed, or "
-                          "one of today: bricks of 16³ cells, a small grid each, in parallel");
+                          "the paper's construction, with cells computed in advance (Morton codes are the paths) or as "
+                          "printed; or a current one: bricks of 16³ cells in parallel, with a small grid each");
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<octree::OctreeDust>(
             octree::dustSettings(values),

@@ -16,7 +16,7 @@ NodeSlot& slotAt(const Place& place, Octree& tree) {
     return tree.mutableBlocks()[place.block].slots[place.octant];
 }
 
-/// Block of a node's children, which is created if it is missing.
+/// Returns the block of a node's children; creates it if it is missing.
 std::uint32_t childrenOf(const Place& place, Octree& tree) {
     if (slotAt(place, tree).children == 0) {
         const std::uint32_t added = tree.addBlock();
@@ -38,7 +38,7 @@ Place search(const glm::uvec3& cell, int level, Octree& tree) {
     return place;
 }
 
-/// Lists the voxels of a block and of all below it in pre-order: the separate traversal.
+/// The separate traversal: lists the voxels of a block and its descendants in pre-order.
 class Traversal {
  public:
     Traversal(std::span<const PaperBuilder::Voxel> found, Octree& tree) : found_(found), tree_(tree) {}

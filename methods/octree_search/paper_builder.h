@@ -1,6 +1,5 @@
-// The search principle as the paper describes it: particle by particle, the bits of the coordinates are read level by
-// level and lead from the root to the voxel; missing nodes are created on the way; a separate traversal lists the
-// voxels.
+// The search principle as in the paper. For each particle, the bits of the coordinates lead level by level from the
+// root to the voxel, and missing nodes are created on the way. A separate traversal lists the voxels.
 //
 // Owns: the active particles and the voxels in order of discovery, booked on a ledger. Threads: one.
 // Source: Carr2006, 3.4, 3.5 and Fig. 3.

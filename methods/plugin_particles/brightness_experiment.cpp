@@ -84,7 +84,7 @@ double largestDifference(const pictures::Image& a, const pictures::Image& b) {
     return static_cast<double>(largest);
 }
 
-/// On a display that ends at 1: min(1, C + (1 − α)·1) against 1.
+/// On a display that clips at 1: min(1, C + (1 − α)·1) against 1.
 double contrastOnWhite(const pictures::Image& layer) {
     float largest = 0;
     for (const glm::vec4& pixel : layer.pixels)

@@ -13,10 +13,10 @@ namespace dustbench::plugin_particles::brightness {
 ///                              light of a particle, summed over the picture, at four times the speed relative to the
 ///                              original speed: mean over 100 random directions across the view
 ///     shuffled_additive, shuffled_clamped, shuffled_alpha
-///                              largest difference of any pixel between two orders of the same 400 points: light added
-///                              up, the same clamped in its own buffer, and alpha without sorting
+///                              largest difference of any pixel between two orders of the same 400 points: additive
+///                              light, the same clamped in its own buffer, and alpha without sorting
 ///     contrast_white_additive, contrast_white_alpha
-///                              largest difference that the points make to a white background on a display, which ends
+///                              largest difference that the points make to a white background on a display that clips
 ///                              at 1
 [[nodiscard]] ExperimentInfo describe();
 [[nodiscard]] std::vector<Finding> measureBrightness(gpu::Device& device, std::uint64_t seed);

@@ -15,7 +15,7 @@ TEST(Brightness, FollowsFromTheWayOfDrawing) {
         for (const Finding& each : measureBrightness(draw::TestCanvas::device(), seed)) found[each.quantity] = each;
         EXPECT_EQ(found.size(), 8u);
         EXPECT_EQ(found["point_light_4x"].value, 1);
-        // α·L/2 of a line of L pixels along the longer axis: 4, but for the pixel at its end.
+        // α·L/2 of a line of L pixels along the longer axis: 4, except for the pixel at its end.
         EXPECT_NEAR(found["line_light_4x"].value, 4, 0.3);
         // 10/2 + 1 pixels against 40/2 + 1, averaged over directions.
         EXPECT_GT(found["hybrid_light_4x"].value, 2.5);

@@ -23,7 +23,7 @@ class CurvePass final : public ShapePass {
     [[nodiscard]] std::size_t cpuBytes() const override { return positions_.bytes(); }
 
  private:
-    /// Steps of the path since the birth.
+    /// Number of steps of the path since birth.
     [[nodiscard]] float stepsOf(const Drawn& drawn, std::size_t i) const {
         return std::min(static_cast<float>(steps_), drawn.puffs.age[i] / drawn.stepSeconds);
     }

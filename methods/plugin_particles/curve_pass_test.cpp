@@ -19,7 +19,7 @@ using particles::NamedValues;
 
 constexpr float stepSeconds = 1.0f / 16;
 
-/// Positions by serial, newest first, noted independently of the particles' places in the store.
+/// Positions by serial, newest first, recorded independently of the particles' indices in the store.
 using Diary = std::map<std::uint64_t, std::vector<glm::vec3>>;
 
 void note(Diary& diary, const Puffs& puffs) {
@@ -29,7 +29,7 @@ void note(Diary& diary, const Puffs& puffs) {
     }
 }
 
-/// Bursts that die one by one: the store grows and shrinks, and moves particles into the holes of the dead.
+/// Bursts whose particles die one by one: the store grows and shrinks, and moves particles into the gaps.
 constexpr const char* bursts = R"(
 emission = { part = "bursts", count = 60, duration_seconds = 0.2, interval_seconds = 0.9 }
 position = { part = "sphere", at = "place", place = [0, 50, 0], radius_metres = 1 }
@@ -122,7 +122,7 @@ struct Throw {
     }
 };
 
-/// Thrown so that within so many steps it moves by `way` and is bent by `bend`/8, in pixels.
+/// Thrown such that within `steps` steps it moves by `way` and its path bends by `bend`/8, in pixels.
 Throw thrownOver(int steps, const glm::vec2& place, const glm::vec2& way, const glm::vec2& bend) {
     const float seconds = static_cast<float>(steps) * stepSeconds;
     return {place, way / seconds, bend / (seconds * seconds)};
@@ -147,8 +147,8 @@ TEST(CurvePass, IsTheParabolaOfABodyUnderAConstantForce) {
                 canvas.upload(shown);
             }
             const pictures::Image image = canvas.drawn(shown);
-            // Every lit pixel lies on the closed form, and every point of it has a lit pixel. OpenGL leaves out the
-            // last pixel of a line, so that the oldest point may be a pixel and half a diagonal away.
+            // Every lit pixel is on the closed-form curve, and every point of the curve has a lit pixel. OpenGL omits
+            // the last pixel of a line, so the oldest point may be a pixel and half a diagonal away.
             constexpr float lastPixel = 1.71f;
             const auto distanceTo = [&](const glm::vec2& pixel) {
                 float nearest = 1e9f;
@@ -164,12 +164,12 @@ TEST(CurvePass, IsTheParabolaOfABodyUnderAConstantForce) {
                 const glm::vec2 place = thrown.at(static_cast<float>(k) / 20);
                 float nearest = 1e9f;
                 for (const glm::vec2& pixel : lit) nearest = std::min(nearest, glm::length(pixel - place));
-                EXPECT_LT(nearest, lastPixel) << k << " twentieths of a step back of " << steps;
+                EXPECT_LT(nearest, lastPixel) << k << " twentieths of a step back, steps: " << steps;
             }
         }
 }
 
-/// The line part draws the straight way of the last step; so does a curve of one piece.
+/// The line part draws the straight path of the last step; so does a curve of one piece.
 TEST(CurvePass, IsTheLineWhenItHasOnePieceOrNothingBendsIt) {
     for (const char* pieces : {"1", "8"})
         for (const char* fade : {"on", "off"})
@@ -186,7 +186,7 @@ TEST(CurvePass, IsTheLineWhenItHasOnePieceOrNothingBendsIt) {
                 int lit = 0, different = 0;
                 for (std::size_t p = 0; p < a.pixels.size(); ++p) {
                     lit += b.pixels[p].a > 0;
-                    // The pixel at the end of a piece may belong to either of two neighbours.
+                    // The pixel at the end of a piece may belong to either of two adjacent pieces.
                     different += std::abs(a.pixels[p].a - b.pixels[p].a) > 0.02f;
                 }
                 EXPECT_GT(lit, age < 1 ? 5 : 20);

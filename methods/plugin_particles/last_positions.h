@@ -1,7 +1,7 @@
-// Where each particle of a system was at its last steps.
+// The positions of each particle of a system at the last steps.
 //
-// The store moves particles when others die: one that is not found at its last index was among those at the end, beyond
-// the present size. One that is not found at all is new: before, it is taken to have moved straight along its velocity.
+// The store moves particles when others die: a particle that is not at its previous index was at the end, beyond the
+// present size. A particle that is not found at all is new and is assumed to have moved straight along its velocity.
 //
 // Units: m, s. Frame: world. Owns: the positions, a column for each step and axis. Threads: one writer.
 #pragma once
@@ -19,13 +19,13 @@ namespace dustbench::plugin_particles {
 
 class LastPositions {
  public:
-    /// Keeps `positions` per particle, the present one included; two or more.
+    /// Keeps `positions` per particle, including the present one; at least two.
     explicit LastPositions(std::size_t positions) : moments_(positions) {}
 
-    /// Adds the present positions. To be called once a step.
+    /// Adds the present positions. Call this once per step.
     void follow(const Puffs& puffs, float stepSeconds);
 
-    /// The position of particle `i`, in the order of the last `follow`, `stepsBack` steps before it.
+    /// The position of particle `i` `stepsBack` steps before the last `follow`, in the order of that call.
     [[nodiscard]] glm::vec3 at(std::size_t i, std::size_t stepsBack) const {
         const Moment& moment = moments_[(newest_ + moments_.size() - stepsBack) % moments_.size()];
         return {moment[0][i], moment[1][i], moment[2][i]};
@@ -36,13 +36,13 @@ class LastPositions {
     using Moment = std::array<std::vector<float>, 3>;
     using Places = std::unordered_map<std::uint64_t, std::size_t>;
 
-    /// The particles that were at `size` or beyond, by their serials.
+    /// The particles that were at index `size` or beyond, by serial.
     [[nodiscard]] Places placesBeyond(std::size_t size) const;
     void resize(std::size_t size);
     void begin(const Puffs& puffs, std::size_t i, float stepSeconds);
     void move(std::size_t from, std::size_t to);
 
-    std::vector<Moment> moments_;  ///< a ring
+    std::vector<Moment> moments_;  ///< ring buffer
     std::size_t newest_ = 0;
     std::vector<std::uint64_t> serial_;
 };

@@ -26,7 +26,7 @@ std::vector<std::string> systemNames() {
     return names;
 }
 
-/// The first system uses the run's seed, so that `wheel_dust` is the shared dust; the others get seeds of their own.
+/// The first system uses the run's seed, so that `wheel_dust` is the shared dust; the others get different seeds.
 std::uint64_t seedOf(std::size_t system, std::uint64_t seed) {
     return seed ^ (system * 0x9e3779b97f4a7c15ULL);
 }
@@ -217,11 +217,11 @@ MethodInfo describe() {
     info.summary = "Particle systems assembled from parts: sources, velocities, forces, colours and ways to draw.";
     info.source = "Thesis";
     info.parameters.dataFile("system", "wheel_dust", "particles", ".toml", systemNames(),
-                             "what is simulated and drawn: one particle system, or several");
+                             "file with one or more particle systems to simulate and draw");
     info.parameters.real("size_factor", 1, 1e-3, 1e3, "", "factor on the sizes of all particles");
     info.parameters.changes("at",
-                            "changes of parts and their parameters during the run: 2.5s:velocity.speed=8, "
-                            "1s:velocity.part=cone; with several systems 2s:smoke.velocity.speed=8");
+                            "changes to parts and their parameters during the run: 2.5s:velocity.speed=8, "
+                            "1s:velocity.part=cone; with several systems: 2s:smoke.velocity.speed=8");
     for (std::size_t i = 0; i < countedSystems; ++i)
         info.facts.push_back({aliveFact(i), "particles", FactOver::lastFrame,
                               "particles alive in system " + std::to_string(i + 1) +
@@ -231,10 +231,10 @@ MethodInfo describe() {
     info.facts.push_back({"alive_deviation",
                           "1",
                           FactOver::lastFrame,
-                          "particles alive in all systems of the file after the last frame less the number asked for, "
-                          "over its square root; empty if none was asked for",
+                          "particles alive in all systems of the file after the last frame minus the requested number, "
+                          "divided by its square root; empty if no number was requested",
                           {-5, 5}});
-    info.facts.push_back({"systems", "systems", FactOver::lastFrame, "particle systems that the file holds"});
+    info.facts.push_back({"systems", "systems", FactOver::lastFrame, "particle systems in the file"});
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<PluginParticles>(systemsOf(values), values.changes("at"));
     };

@@ -34,7 +34,7 @@ class PluginParticles final : public Method {
     [[nodiscard]] MemoryReport memory() const override;
     [[nodiscard]] std::int64_t primitives() const override;
     [[nodiscard]] std::optional<std::uint64_t> stateHash() const override;
-    /// Of the systems with a part `glow`, in their order.
+    /// The lights of the systems with a part `glow`, in order.
     [[nodiscard]] std::vector<scene::PointLight> lights() const override { return lights_; }
     [[nodiscard]] bool wantsPreroll() const override { return true; }
     /// Returns `systems.toml`: the current systems. Loading it gives the same parts.
@@ -54,7 +54,7 @@ class PluginParticles final : public Method {
     void findLights();
 
     std::vector<particles::NamedParts> parts_;  ///< until `prepare`
-    std::int64_t askedFor_ = 0;                 ///< particles; 0: as many as the file says
+    std::int64_t askedFor_ = 0;                 ///< number of particles; 0: as in the file
     std::vector<Change> changes_;
     std::size_t applied_ = 0;  ///< number of changes applied
     std::vector<System> systems_;

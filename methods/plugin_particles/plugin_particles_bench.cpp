@@ -114,7 +114,7 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// Runs both in turn. `share_of_bare` is the median over the rounds of bare / system time: 1 means no overhead.
+/// Alternates both. `share_of_bare` is the median over the rounds of bare / system time: 1 means no overhead.
 void inTurns(benchmark::State& state, Workload& work, auto& bare, auto& system) {
     const pictures::Image a = pictureOf(work, bare), b = pictureOf(work, system);
     for (std::size_t i = 0; i < a.pixels.size(); ++i)

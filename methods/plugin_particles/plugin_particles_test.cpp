@@ -252,7 +252,7 @@ TEST(PluginParticles, GlowingSystemsLightTheSceneAndOthersDoNot) {
     moment.run(dark, 90);
     EXPECT_TRUE(dark.lights().empty());
 
-    // k·Σ C·α·r³ over all particles, divided among the parts by age, and no light beyond their places.
+    // k·Σ C·α·r³ over all particles, divided among the parts by age; no light outside the particles' extent.
     PluginParticles lit =
         made(fountain("one") + "shading = [ { part = \"glow\", lights = 4, strength = 50 } ]\n" + fountain("two"));
     Moment other;
@@ -266,17 +266,17 @@ TEST(PluginParticles, GlowingSystemsLightTheSceneAndOthersDoNot) {
         sum += light.intensity;
         EXPECT_LT(glm::distance(light.position, glm::dvec3(0, 0.5, -8)), 1.5);
     }
-    // Opacity 1/2 by default at most: the bound is what 600 particles of 0.2 m would give at opacity 1.
+    // Opacity is at most 1/2 by default; the bound is the value for 600 particles of 0.2 m at opacity 1.
     EXPECT_GT(sum.b, 0);
     EXPECT_LT(sum.b, 50 * 0.9f * 0.008f * 700);
     EXPECT_NEAR(sum.r / sum.b, 0.2 / 0.9, 1e-3);
     EXPECT_NEAR(sum.g / sum.b, 0.4 / 0.9, 1e-3);
-    // The same as without the part: glowing changes no colour.
+    // The same as without the part: glow does not change colours.
     EXPECT_EQ(counted.sizes.size(), 2u);
 }
 
-/// A minute of every delivered system: their numbers stay at what is asked for, and their states are numbers. With
-/// DUSTBENCH_FULL_SIZE at their own rates (`make long`).
+/// A minute of every delivered system: particle counts stay at the requested numbers, and all states are finite. With
+/// DUSTBENCH_FULL_SIZE at the systems' own rates (`make long`).
 TEST(PluginParticles, DeliveredSystemsAreStable) {
     const bool fullSize = std::getenv("DUSTBENCH_FULL_SIZE") != nullptr;
     for (const std::string& name : files::listData("particles", ".toml")) {
@@ -284,7 +284,7 @@ TEST(PluginParticles, DeliveredSystemsAreStable) {
         moment.scene.vehicle.emplace();
         PluginParticles method(particles::systemsFromFile(files::findData("system", "particles", name, ".toml")));
         method.prepare(moment.scene, {1, fullSize ? 0 : 2000}, Moment::device());
-        double sum = 0;  // of the last 40 s; bursts make the number swing
+        double sum = 0;  // over the last 40 s, since bursts make the count oscillate
         for (int second = 0; second < 60; ++second) {
             for (scene::WheelState& wheel : moment.state.vehicle.wheels) wheel.velocity = {20, 0, 0};
             moment.state.vehicle.speed = 20;

@@ -37,10 +37,10 @@ class ShapePass {
     virtual void upload(const Drawn& drawn) = 0;
     /// Draws the last upload into `layer`; may be called repeatedly.
     virtual void draw(const scene::View& view, const gpu::Layer& layer) = 0;
-    /// Primitives that a `draw` submits.
+    /// Number of primitives that a `draw` submits.
     [[nodiscard]] virtual std::size_t count() const = 0;
     [[nodiscard]] virtual std::size_t gpuBytes() const = 0;
-    /// What the pass remembers from one upload to the next.
+    /// Memory of the data that the pass keeps between uploads.
     [[nodiscard]] virtual std::size_t cpuBytes() const { return 0; }
 };
 

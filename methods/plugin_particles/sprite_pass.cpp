@@ -1,6 +1,6 @@
 // Puffs and sprites, and sprites that are blurred along their path.
 //
-// Copy k of n stands at (k + 1)/n of the path. It has the weight w_k = 2(k + 1)/(n(n + 1)) if the sprite fades in,
+// Copy k of n is at (k + 1)/n of the path. It has the weight w_k = 2(k + 1)/(n(n + 1)) if the sprite fades in,
 // otherwise 1/n: together the copies have the optical depth, or the light, of one sprite.
 #include "methods/kit/draw/billboards.h"
 #include "methods/kit/draw/layer_blend.h"

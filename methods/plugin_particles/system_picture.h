@@ -1,8 +1,8 @@
 // Draws one system's particles as its render part specifies.
 //
-// Additive light is drawn into its own buffer and clamped there (kit/draw/layer_blend.h), unless the part says
-// otherwise. For red-green glasses everything is drawn once per eye; the opaque scene stays that of a single eye in the
-// middle. Owns: the pass, the buffers and the drawing order. Threads: the OpenGL thread. Source: Thesis, 4.1.
+// Additive light is drawn into its own buffer and clamped there (kit/draw/layer_blend.h), unless the part is set
+// otherwise. For red-green glasses everything is drawn once per eye; the opaque scene is still that of a single eye in
+// the middle. Owns: the pass, the buffers and the drawing order. Threads: the OpenGL thread. Source: Thesis, 4.1.
 #pragma once
 
 #include <memory>

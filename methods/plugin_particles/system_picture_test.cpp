@@ -93,7 +93,7 @@ TEST(SystemPicture, ALineFadesLinearlyToItsOldEnd) {
                 if (alpha > 0) before = alpha;
             }
             const float pixels = 10 * seconds / canvas.pixelMetres(10);
-            EXPECT_NEAR(sum, 0.8f * pixels * (fade ? 0.5f : 1), 0.8f) << seconds;  // one pixel, of either end
+            EXPECT_NEAR(sum, 0.8f * pixels * (fade ? 0.5f : 1), 0.8f) << seconds;  // one pixel at either end
             EXPECT_EQ(at(image, 124, 60).a, 0);
         }
 }
@@ -220,7 +220,7 @@ TEST(SystemPicture, AnObjectCoversTheDiscOfItsRadiusAndTheNearestHides) {
         float sum = 0;
         for (const glm::vec4& pixel : canvas.drawn(look).pixels) {
             sum += pixel.a;
-            EXPECT_EQ(pixel.g, 0) << "what is behind shows";
+            EXPECT_EQ(pixel.g, 0) << "the background is visible";
         }
         return sum;
     };

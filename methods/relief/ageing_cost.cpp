@@ -9,7 +9,7 @@
 namespace dustbench::relief::ageing {
 namespace {
 
-constexpr double enoughSeconds = 2e-3;  // per round, so that the clock's step does not count
+constexpr double enoughSeconds = 2e-3;  // per round, so that the clock's resolution does not matter
 
 std::vector<Impact> randomImpacts(const CostSweep& sweep, int side, int hits, int round) {
     const auto within = static_cast<float>(std::min(side, sweep.reach));
@@ -23,7 +23,7 @@ std::vector<Impact> randomImpacts(const CostSweep& sweep, int side, int hits, in
     return impacts;
 }
 
-/// The minimum of several times if they are short.
+/// The minimum over several calls if they are short.
 double secondsToAge(WornSurface& surface, Search search, const std::vector<Impact>& impacts) {
     double shortest = std::numeric_limits<double>::infinity(), total = 0;
     while (total < enoughSeconds) {

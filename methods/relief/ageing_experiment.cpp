@@ -56,7 +56,7 @@ void addExponents(const std::string& search, const std::vector<CostCell>& cells,
     }
 }
 
-/// R25: what both searches cost over hits and texels.
+/// R25: the cost of both searches over hits and texels.
 void addGrowth(const CostSweep& sweep, std::vector<Finding>& findings) {
     CostSweep each = sweep;
     for (const auto& [name, search] : {std::pair("gather", Search::gather), {"scatter", Search::scatter}}) {
@@ -69,7 +69,7 @@ void addGrowth(const CostSweep& sweep, std::vector<Finding>& findings) {
     addExponents("scatter_in_a_corner", measureCost(each), sweep.rounds, findings);
 }
 
-/// R25: the time that ageing takes of a frame, over its hits, on a relief of 512² texels.
+/// R25: the time of ageing per frame, over the number of hits, on a relief of 512² texels.
 void addFrameTimes(std::uint64_t seed, std::vector<Finding>& findings) {
     constexpr int side = 512;
     const auto add = [&](const std::string& name, const CostSweep& sweep) {
@@ -108,8 +108,8 @@ Finding crossover(std::uint64_t seed) {
     return finding;
 }
 
-/// R24: how often y decreases in a step of the paper's law, for particles without initial vertical velocity: of the
-/// position texture, and of that of velocities.
+/// R24: how often y decreases in a step of the paper's law, in the position and in the velocity texture, for particles
+/// without initial vertical velocity.
 std::vector<Finding> loweredGreen(const std::string& suffix, const glm::vec3& gravity, std::uint64_t seed) {
     constexpr int count = 1000, steps = 5;
     scene::Panel panel;  // large enough that no particle leaves it
@@ -126,7 +126,7 @@ std::vector<Finding> loweredGreen(const std::string& suffix, const glm::vec3& gr
         particles.add({{random[0], 0, -5000}, {maths::centred(random[1]), 0, maths::centred(random[2])}}, {},
                       static_cast<std::uint64_t>(n));
     }
-    std::vector<glm::vec2> before(count, glm::vec2(0));  // y of place and velocity
+    std::vector<glm::vec2> before(count, glm::vec2(0));  // y of position and velocity
     glm::dvec2 lowered(0);
     for (int step = 0; step < steps; ++step) {
         particles.step(surface, {.law = MotionLaw::paper, .gravity = gravity});
@@ -180,7 +180,7 @@ CostSweep wholeSweep(std::uint64_t seed) {
 ExperimentInfo describe() {
     ExperimentInfo info;
     info.summary =
-        "Measures how the cost of ageing a relief grows with hits and texels, and what a hit does to its texture.";
+        "Measures how the cost of ageing a relief grows with hits and texels, and how a hit changes its texture.";
     info.source = "Bergeron";
     info.run = [](ExperimentContext& context) {
         std::vector<Finding> findings;

@@ -77,7 +77,7 @@ TEST(Ageing, EnergyAndAngleCountByTheVelocityAgainstTheSurface) {
     EXPECT_NEAR(volumeCubicMetres(hitWith({7, -3, -2}), settings) / straight, 1, 1e-6);
     const float slanting = static_cast<float>(2 * std::sin(std::numbers::pi / 6));
     EXPECT_NEAR(volumeCubicMetres(hitWith({1, 0, -slanting}), settings) / straight, 0.25, 1e-6);
-    EXPECT_EQ(volumeCubicMetres(hitWith({5, 0, 0.1f}), settings), 0);  // along or away from it
+    EXPECT_EQ(volumeCubicMetres(hitWith({5, 0, 0.1f}), settings), 0);  // along the surface or away from it
 }
 
 TEST(Ageing, ThePapersHitSinksOneTexelToTheBottom) {

@@ -20,7 +20,7 @@ constexpr int seeds = 5;
 constexpr double threshold = 0.5;
 constexpr double takenShare = 0.05;
 constexpr double kilograms = 0.002, metresPerSecond = 5, hardness = 1e4;
-constexpr std::int64_t lotSize = 10, maximumParticles = 2'000'000;  // in the smallest lot and in all
+constexpr std::int64_t lotSize = 10, maximumParticles = 2'000'000;  // of the smallest lot; in total
 constexpr int windowRadius = 5;
 
 std::array<double, 2 * windowRadius + 1> gaussian() {
@@ -43,7 +43,7 @@ std::vector<double> lumaOf(const pictures::Image& image) {
     return luma;
 }
 
-/// Weighted sums along rows, or along columns, of the values within the window's radius; those at the rim are left out.
+/// Weighted sums along rows, or along columns, of the values within the window's radius; omits those at the rim.
 std::vector<double> weighted(const std::vector<double>& values, int columns, int rows, bool alongRows) {
     static const auto weights = gaussian();
     const std::size_t reach = alongRows ? 1 : static_cast<std::size_t>(columns);
@@ -62,7 +62,7 @@ std::vector<double> weighted(const std::vector<double>& values, int columns, int
     return sums;
 }
 
-/// Weighted sums over the windows that lie within the picture whole.
+/// Weighted sums over the windows that are entirely within the picture.
 std::vector<double> windowSums(const std::vector<double>& values, int columns) {
     const int rows = static_cast<int>(values.size()) / columns;
     return weighted(weighted(values, columns, rows, true), columns - 2 * windowRadius, rows, false);
@@ -78,7 +78,7 @@ struct Moments {
     }
 };
 
-/// Lets `count` particles fly at the sign, from number `first` on.
+/// Makes `count` particles hit the sign, starting with number `first`.
 void hit(WornSurface& surface, const scene::Panel& panel, const AgeingSettings& ageing, std::uint64_t seed,
          std::int64_t first, std::int64_t count) {
     MemoryLedger ledger;
@@ -187,7 +187,7 @@ double particlesUntilTaken(double share, const scene::Panel& panel, const Ageing
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "How many particles it takes until a sign cannot be read.";
+    info.summary = "Counts the particles that make a sign illegible.";
     info.source = "Bergeron";
     info.run = measured;
     return info;

@@ -26,7 +26,7 @@ pictures::Image noise(unsigned seed, float amplitude, const pictures::Image* ove
     return image;
 }
 
-/// Wang2004, (13), of one window of 11×11 pixels around (x, y): the plain way.
+/// Wang2004, (13), for one window of 11×11 pixels around (x, y), by definition.
 double similarityAt(const std::vector<double>& r, const std::vector<double>& i, int width, int x, int y) {
     double total = 0, mr = 0, mi = 0, rr = 0, ii = 0, ri = 0;
     for (int v = -5; v <= 5; ++v)
@@ -68,7 +68,7 @@ TEST(Legibility, SimilarityIsOneOfEqualPicturesAndFallsWithNoise) {
     EXPECT_NEAR(last, 0, 0.1);  // independent pictures
 }
 
-/// Letters of a kind: stripes that stand out.
+/// Raised stripes in place of letters.
 scene::Panel stripes() {
     auto relief = std::make_shared<scene::Relief>();
     relief->columns = 128;
@@ -112,7 +112,7 @@ TEST(ViewAngle, TheSafeMarchMissesNothingAndFewStepsMissMostWhenGrazing) {
 }
 
 TEST(ViewAngle, BumpMappingMissesWhatTheDepthMovesAside) {
-    // At a depth of d the point that is seen lies d·tan(angle) beside that of the face.
+    // At a depth of d the visible point is offset by d·tan(angle) from that on the face.
     scene::Panel panel = stripes();
     auto level = std::make_shared<scene::Relief>(*panel.relief);
     level->depth.assign(level->depth.size(), 0.5f);

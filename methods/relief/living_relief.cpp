@@ -109,7 +109,7 @@ void LivingRelief::upload() {
 
 namespace {
 
-/// The columns of a surface as a visitor gets them; glm::vec3 and float, in world space.
+/// The columns of a surface as passed to a visitor: glm::vec3 and float, in world space.
 struct SurfaceColumns {
     std::vector<glm::vec3> position, colour;
     std::vector<float> height, removed, laid, hits;

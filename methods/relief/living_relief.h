@@ -1,4 +1,4 @@
-// One panel with its relief: particles that enter it, move in it, hit it and wear it.
+// One panel with its relief, and the particles that enter it, move in it, hit it and wear it.
 //
 // Units: m, m/s. Owns: surface, particles and their picture. Threads: the OpenGL thread; steps use the current oneTBB
 // arena. Source: Bergeron, 3 (create, move, collide, age the surface, draw it).
@@ -28,8 +28,8 @@ namespace dustbench::relief {
 enum class Search { gather, scatter };
 inline constexpr Choices<Search> searches{{"gather", Search::gather}, {"scatter", Search::scatter}};
 
-/// Where the state of the particles is, and what moves it: columns and the CPU, or textures and a shader, as in the
-/// paper.
+/// Storage of the particles' state, and the processor that moves them: columns and the CPU, or textures and a shader as
+/// in the paper.
 enum class StateIn { array, texture };
 inline constexpr Choices<StateIn> statesIn{{"array", StateIn::array}, {"texture", StateIn::texture}};
 
@@ -55,12 +55,12 @@ class LivingRelief {
     void age();
     void upload();
 
-    /// `shadow`: the car's, null in a scene without one.
+    /// `shadow`: the car's shadow; null in a scene without a car.
     void draw(const scene::View& view, const CarShadow* shadow) {
         picture_.draw(view, toWorld_, takesCarShadow_ ? shadow : nullptr);
     }
 
-    /// The surface as it is: with its colour, `depth_removed` and `deposit` (m), and `hits`.
+    /// The current surface with its colour, `depth_removed` and `deposit` (m), and `hits`.
     void handOver(VolumeVisitor& visitor) const;
 
     [[nodiscard]] const WornSurface& surface() const { return surface_; }

@@ -15,7 +15,7 @@ constexpr glm::vec3 gravity{0, -9.8f, 0};
 constexpr int particles = 1000;
 constexpr std::uint64_t seeds = 7;
 
-/// One step of a law: the particle, its age in steps with this one, and the step in s.
+/// One step of a law: the particle, its age in steps including this one, and the step in s.
 using Law = Motion (*)(const Motion&, float, float);
 
 Motion paper(const Motion& old, float ageSteps, float dt) {
@@ -71,7 +71,7 @@ std::vector<Finding> measured(ExperimentContext& context) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "How far a particle is from its parabola after one second, under both laws of motion.";
+    info.summary = "Measures how far a particle is from its parabola after one second, under both laws of motion.";
     info.source = "Bergeron";
     info.run = measured;
     return info;

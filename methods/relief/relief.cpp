@@ -195,35 +195,35 @@ MethodInfo describe() {
     info.drawsPanels = true;
     info.parameters
         .choice("motion", MotionLaw::fixed, motionLaws,
-                "paper: displacement over the whole age is added in each step, so that it compounds; fixed: over the "
-                "step")
+                "paper: each step adds the displacement over the particle's whole age, which compounds; fixed: adds "
+                "the displacement over the step")
         .choice("state", StateIn::array, statesIn,
-                "of the particles in a relief: array: columns, moved on the CPU; texture: two textures, moved by a "
-                "shader, as in the paper; the same paths and hits")
+                "array: particles in a relief are columns, moved on the CPU; texture: they are two textures, moved by "
+                "a shader, as in the paper; paths and hits are the same")
         .choice("ageing", AgeingModel::crater, ageingModels,
-                "what a hit does: paper: the texel falls to the bottom and turns white; scalar: it falls by `scalar`; "
-                "crater: a pit whose volume follows from energy and angle; deposit: the particle stays")
+                "paper: a hit lowers the texel to the bottom and turns it white; scalar: lowers it by `scalar`; "
+                "crater: removes a pit whose volume follows from energy and angle; deposit: the particle stays")
         .choice("search", Search::scatter, searches,
-                "gather: each texel tests every hit, as in the paper; scatter: each hit writes its texels; the same "
-                "result")
+                "gather: each texel tests every hit, as in the paper; scatter: each hit writes its texels; the "
+                "results are the same")
         .choice("march", March::safe, marches,
-                "paper: linear, then binary steps, which may miss thin things; safe: misses nothing; mesh: two "
+                "paper: linear, then binary steps, which may miss thin details; safe: misses nothing; mesh: draws two "
                 "triangles per texel instead of a march, as a reference")
-        .integer("linear_steps", 15, 1, 1000, "", "of march=paper")
-        .integer("binary_steps", 5, 0, 30, "", "of march=paper")
-        .boolean("shadow", true, "let the relief throw shadows on itself, and the car on reliefs")
-        .real("scalar", 0.1, 0, 1, "", "share of the depth by which a hit lowers a texel under ageing=scalar")
-        .real("mass_kilograms", 0.05, 0, 1000, "kg", "of a particle")
-        .real("hardness", 1e4, 1, 1e12, "J/m³", "energy that breaks off a volume under ageing=crater")
-        .real("density", 1500, 1, 1e5, "kg/m³", "of what is laid on under ageing=deposit")
+        .integer("linear_steps", 15, 1, 1000, "", "number of linear steps with march=paper")
+        .integer("binary_steps", 5, 0, 30, "", "number of binary steps with march=paper")
+        .boolean("shadow", true, "draw shadows of the relief on itself, and of the car on reliefs")
+        .real("scalar", 0.1, 0, 1, "", "share of the depth by which a hit lowers a texel with ageing=scalar")
+        .real("mass_kilograms", 0.05, 0, 1000, "kg", "mass of a particle")
+        .real("hardness", 1e4, 1, 1e12, "J/m³", "energy that removes a unit of volume with ageing=crater")
+        .real("density", 1500, 1, 1e5, "kg/m³", "density of the deposit with ageing=deposit")
         .real("repose_degrees", 35, 1, 90, "°",
-              "angle to the face above which deposits slide, under ageing=deposit; 90: they stay where they fall")
-        .real("gravity", 9.8, 0, 1000, "m/s²", "within the relief")
-        .integer("maximum_age", 600, 1, 1'000'000, "steps", "after which a particle in the relief dies")
-        .real("grain_metres", 0.006, 0.0001, 1, "m", "radius at which a particle is drawn within the relief");
+              "angle to the face above which deposits slide with ageing=deposit; 90: they stay where they fall")
+        .real("gravity", 9.8, 0, 1000, "m/s²", "gravity within the relief")
+        .integer("maximum_age", 600, 1, 1'000'000, "steps", "age at which a particle in the relief dies")
+        .real("grain_metres", 0.006, 0.0001, 1, "m", "radius of a particle drawn within the relief");
     info.facts = {
         {"hits", "hits", FactOver::lastFrame, "particles that hit the surface of a relief since the start"},
-        {"worn_share", "share", FactOver::lastFrame, "volume taken off the reliefs, of their volume at the start"},
+        {"worn_share", "share", FactOver::lastFrame, "volume removed from the reliefs; relative to initial"},
         {"mass_error", "share", FactOver::lastFrame,
          "error of the reliefs' volume balance, present = initial − removed + deposited; relative to initial"}};
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {

@@ -1,7 +1,7 @@
 // Reliefs that dust wears away: particles enter a panel through its face, move within it, hit its surface and age it.
 //
-// Source: Bergeron. Departs: particles come from the shared dust and are drawn within the relief; the source names both
-// as future work.
+// Source: Bergeron. Departs: particles come from the shared dust and are drawn within the relief, both of which the
+// source names as future work.
 #pragma once
 
 #include <deque>
@@ -51,7 +51,7 @@ class Relief final : public Method {
     draw::DepthSort sort_{ledger_};
     LedgerVector<std::uint32_t> visible_{
         ledger_.account("visible dust")};                   ///< dust outside the reliefs, from far to near
-    mutable particles::ParticleStore handedOver_{ledger_};  ///< what `volume` passed on last
+    mutable particles::ParticleStore handedOver_{ledger_};  ///< particles last passed on by `volume`
     std::deque<LivingRelief> reliefs_;
     std::optional<CarShadow> carShadow_;
     std::optional<SceneWithReliefs> target_;

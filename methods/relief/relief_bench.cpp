@@ -1,9 +1,9 @@
-// Benchmarks of reliefs against what they could be measured by: the march against a mesh of the same detail, ageing
-// against a bare loop of writes, the particles against the shared dust's update.
+// Benchmarks reliefs against baselines: the march against a mesh of the same detail, ageing against a bare loop of
+// writes, the particles against the shared dust's update.
 //
-// Both sides run in turns. `ms` and `other_ms` are medians of the processor time of all threads, so that they can be
-// compared where other programs run as well; OpenGL without a GPU draws on threads of this program. `ratio` is the
-// median of the pairs' quotients, other_ms by ms: above 1, ours is faster.
+// Both sides run alternately. `ms` and `other_ms` are medians of the processor time of all threads, so that they can be
+// compared while other programs run; OpenGL without a GPU draws on threads of this program. `ratio` is the median of
+// the pairs' quotients other_ms/ms: above 1, ours is faster.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ double medianOf(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-/// Both in turns; `prepare` is called before each and not timed.
+/// Runs both alternately; `prepare` is called before each and not timed.
 template <typename Prepare, typename Ours, typename Other>
 void inTurns(benchmark::State& bench, const Prepare& prepare, const Ours& ours, const Other& other) {
     std::vector<double> mine, theirs, ratios;
@@ -54,7 +54,7 @@ void inTurns(benchmark::State& bench, const Prepare& prepare, const Ours& ours, 
     bench.counters["ratio"] = medianOf(ratios);
 }
 
-/// Hills of all sizes, so that neither a march nor a mesh has an easy part.
+/// Hills of all sizes, so that no part is easy for a march or a mesh.
 scene::Panel hills(int side) {
     auto relief = std::make_shared<scene::Relief>();
     relief->columns = relief->rows = side;
@@ -98,7 +98,7 @@ BENCHMARK(BM_MarchAgainstMesh)
     ->ArgsProduct({{1024}, {60, 80}})
     ->Unit(benchmark::kMillisecond);
 
-/// Random hits, of one texel or of a pit, and where each writes how much.
+/// Random hits, of one texel or of a pit, with the texels and amounts that each writes.
 struct Hits {
     Hits(const WornSurface& surface, int count, float radius) {
         std::mt19937 random(5);
@@ -142,8 +142,9 @@ BENCHMARK(BM_ScatterAgainstBareWrites)
     ->ArgsProduct({{256, 1024, 4096}, {0, 2, 4}})
     ->Unit(benchmark::kMillisecond);
 
-/// A million particles within a relief, `range(0)` tenths of a texel a step: between the face and the highest place
-/// (`near` = 0), or halfway to the surface below them (1), where some hit. Those that end are replaced every 40 steps.
+/// A million particles within a relief, moving `range(0)` tenths of a texel per step: between the face and the highest
+/// point (`near` = 0), or halfway to the surface below them (1), where some hit. Those that end are replaced every 40
+/// steps.
 void BM_ParticlesAgainstSharedDust(benchmark::State& bench) {
     constexpr std::int64_t count = 1'000'000;
     constexpr float dt = 1.0f / 60;

@@ -1,4 +1,4 @@
-// One relief drawn by itself, without sky, ground or dust: for experiments and benchmarks.
+// Draws one relief without sky, ground or dust, for experiments and benchmarks.
 //
 // Units: m. Owns: surface, picture and targets. Threads: the OpenGL thread.
 #pragma once
@@ -17,18 +17,18 @@ namespace dustbench::relief {
 
 class ReliefStudio {
  public:
-    /// `scene` and `panel` outlive this. `view` is in world space.
+    /// `scene` and `panel` must outlive this. `view` is in world space.
     ReliefStudio(gpu::Device& device, const scene::Scene& scene, const scene::Panel& panel, const ReliefStyle& style,
                  const scene::View& view);
 
-    /// To be worn; drawn as it is at the next `draw`.
+    /// The surface to wear; `draw` shows its current state.
     [[nodiscard]] WornSurface& surface() { return surface_; }
     void draw();
     void draw(const scene::View& view);
 
-    /// What was drawn last: linear, rows from the top, alpha 0 where the relief is not.
+    /// The picture drawn last: linear, rows from the top, alpha 0 outside the relief.
     [[nodiscard]] pictures::Image picture() const;
-    /// The reversed depth beside it, rows from the bottom; 0 where the relief is not.
+    /// The reversed depth of the picture drawn last, rows from the bottom; 0 outside the relief.
     [[nodiscard]] std::vector<float> depths() const;
 
  private:
@@ -42,7 +42,7 @@ class ReliefStudio {
     SceneWithReliefs target_;
 };
 
-/// A view of a panel's middle that fills the picture's width, `degrees` off the face's normal towards +x.
+/// A view of a panel's centre, `degrees` off the face's normal towards +x; the panel fills the picture's width.
 [[nodiscard]] scene::View viewOf(const scene::Panel& panel, double degrees, int width, int height);
 
 }  // namespace dustbench::relief

@@ -1,4 +1,4 @@
-// The whole method: dust that flies towards a panel.
+// Tests the whole method with dust that flies towards a panel.
 #include "methods/relief/relief.h"
 
 #include <gtest/gtest.h>
@@ -48,8 +48,8 @@ scene::Scene twoWalls(unsigned seed) {
     return scene;
 }
 
-/// Dust that starts before the wall and flies at it, each with its own velocity; it goes on behind, as the shared dust
-/// does.
+/// Dust that starts in front of the wall and flies at it, each particle with its own velocity; it continues behind the
+/// wall, like the shared dust.
 class DustRain {
  public:
     DustRain(int count, unsigned seed) {
@@ -71,7 +71,7 @@ class DustRain {
             store_.z[i] += store_.velocityZ[i] * static_cast<float>(dt);
         }
     }
-    /// From now on each flies back the way it came.
+    /// From now on each particle flies back the way it came.
     void turnBack() {
         for (std::size_t i = 0; i < store_.size(); ++i)
             for (auto* velocity : {&store_.velocityX, &store_.velocityY, &store_.velocityZ})
@@ -149,8 +149,8 @@ TEST_F(ReliefTest, EachParticleThatEntersHitsAndNoneTwice) {
     }
 }
 
-// The shared dust knows nothing of reliefs: it may fly back and through the face again, or reach a second wall. What a
-// relief took is not drawn outside any more, which tells how many it took.
+// The shared dust ignores reliefs: it may fly back through the face, or reach a second wall. Particles taken by a
+// relief are no longer drawn outside, which shows how many it took.
 TEST_F(ReliefTest, AParticleIsTakenOnceHoweverOftenItPassesAFace) {
     turnEvery_ = 15;
     for (const unsigned seed : {1u, 2u}) {

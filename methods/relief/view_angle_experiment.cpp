@@ -19,7 +19,7 @@ constexpr std::array angles{0, 45, 70, 80, 86};
 constexpr std::array steps{8, 15, 30, 60, 120, 240};
 constexpr double missedTexels = 3;
 
-/// Distance along the ray of its first point on the relief; negative: it meets nothing.
+/// Distance along the ray to its first point on the relief; negative: there is none.
 double exactDistance(const DepthMap& map, const scene::Panel& panel, const glm::dvec3& eye, const glm::dvec3& way) {
     const glm::dvec3 low(-panel.sizeMetres / 2.0, -panel.depthMetres), high(panel.sizeMetres / 2.0, 0);
     const glm::dvec3 a = (low - eye) / way, b = (high - eye) / way;
@@ -41,7 +41,7 @@ Finding findingOf(const std::string& quantity, const std::vector<Seen>& seen, st
     return {quantity, static_cast<double>(misses) / static_cast<double>(pixels), low, high, pixels};
 }
 
-/// How much more is missed at 70° than at 0°, of one way less that of another.
+/// Increase of the missed share from 0° to 70° by one method, minus that by another.
 void addDependences(std::vector<Finding>& findings) {
     const auto dependence = [&](const std::string& way) {
         const auto missed = [&](const char* angle) {
@@ -113,7 +113,7 @@ Seen seenAt(gpu::Device& device, const scene::Scene& scene, const scene::Panel& 
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "What a march over a relief misses, over the angle of view and its steps.";
+    info.summary = "Measures the pixels that a march over a relief misses, by viewing angle and number of steps.";
     info.source = "Bergeron";
     info.run = measured;
     return info;

@@ -1,4 +1,4 @@
-// A volume kept as one box of cells, drawn by any of the renderers of a grid.
+// A volume stored as one box of cells, drawn by any grid renderer.
 //
 // Owns: the moments of the series, and the picture.
 #pragma once
@@ -32,7 +32,7 @@ class DenseStorage final : public Storage {
 
     VolumeSettings settings_;
     volumes::VolumeSeries series_;
-    volumes::VolumeGrid between_;                 ///< what is shown between two moments
+    volumes::VolumeGrid between_;                 ///< the interpolated grid between two moments
     const volumes::VolumeGrid* shown_ = nullptr;  ///< a moment, or `between_`
     std::vector<float> reaction_;
     MemoryLedger ledger_;

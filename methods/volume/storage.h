@@ -1,4 +1,4 @@
-// How a volume is kept and shown: as one box of cells (dense_storage.h) or as its bricks alone
+// Interface for storing and showing a volume: as one box of cells (dense_storage.h) or as its non-empty bricks
 // (sparse/sparse_storage.h).
 //
 // Units: metres, seconds, extinction per metre. Frame: world. Threads: the OpenGL thread.
@@ -19,20 +19,20 @@ class Storage {
  public:
     virtual ~Storage() = default;
 
-    /// One moment alone stands still and lasts.
+    /// Whether there is a single moment, which never ends.
     [[nodiscard]] virtual bool isStill() const = 0;
-    /// From the first moment to the last.
+    /// Duration from the first moment to the last.
     [[nodiscard]] virtual double seconds() const = 0;
 
-    /// The volume so many seconds after the first moment is what is drawn from now on.
+    /// Draws show the volume `seconds` after the first moment from now on.
     virtual void show(double seconds, const StageClock& clock) = 0;
     virtual void draw(const scene::View& view, gpu::Layer& layer) = 0;
-    /// Hands over the volume so many seconds after the first moment.
+    /// Hands over the volume `seconds` after the first moment.
     virtual void handOver(double seconds, VolumeVisitor& visitor) const = 0;
-    /// Integral of the extinction over the volume that is shown.
+    /// Integral of the extinction over the displayed volume.
     [[nodiscard]] virtual double massSquareMetres() const = 0;
     [[nodiscard]] virtual MemoryReport memory() const = 0;
-    /// Rays cast, planes, splats or triangles drawn last.
+    /// Number of rays, planes, splats or triangles of the last draw.
     [[nodiscard]] virtual std::int64_t primitives() const = 0;
 };
 

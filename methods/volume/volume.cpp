@@ -60,7 +60,7 @@ VolumeSettings settingsOf(const ParameterValues& values) {
         extinction = given;
     else if (given != asTheFileSays)
         throw InputError("parameter extinction: got " + std::to_string(given) +
-                         ", allowed: 0 or more, or -1: as the volume's file says");
+                         ", allowed: 0 or more, or -1 for the value of the volume's file");
     if (values.choice("storage", keepings) == Keeps::sparse) requireSparse(settings.picture);
     if (!settings.setup.fire.empty()) settings.picture.fire = raycast::loadTransferFunction(settings.setup.fire);
     return settings;
@@ -71,24 +71,25 @@ VolumeSettings settingsOf(const ParameterValues& values) {
 MethodInfo describe() {
     MethodInfo info;
     info.title = "Volume";
-    info.summary = "Smoke or fire from files that another program made, ray cast.";
+    info.summary = "Ray casts smoke or fire from files of other programs.";
     info.takesLights = true;
     info.parameters
         .dataFile("volume", "cloud", "volumes", std::string(volumes::volumeExtensions),
                   files::listData("volumes", volumes::volumeExtensions),
-                  "what is shown: one file, several by a *, a series that names them, or a .toml that says more")
-        .real("extinction", asTheFileSays, asTheFileSays, 1e6, "1/m", "at a density of 1; -1: as the .toml says, or 1")
+                  "volume to show: a file, several files by a *, a series that names them, or a .toml with settings")
+        .real("extinction", asTheFileSays, asTheFileSays, 1e6, "1/m",
+              "extinction at a density of 1; -1: the value of the .toml, or 1")
         .choice(
             "storage", Keeps::dense, keepings,
-            "every cell of the box around the density, or only bricks of 8x8x8 cells with density, which takes less "
-            "memory if most of the box is empty; sparse: renderer=raycast and filter=linear alone");
+            "dense: every cell of the box around the density; sparse: only bricks of 8x8x8 cells with density, which "
+            "take less memory if most of the box is empty; sparse requires renderer=raycast and filter=linear");
     raycast::declareRaycast(info.parameters);
     info.facts = {{"volume_mass", "m2", FactOver::lastFrame,
-                   "integral of the extinction over the volume that is shown, after the last frame"},
+                   "integral of the extinction over the displayed volume, after the last frame"},
                   {"volume_held",
                    "s",
                    FactOver::lastFrame,
-                   "time since the last moment of the volume's series, which stays, after the last frame",
+                   "time since the end of the volume's series, whose last moment stays, after the last frame",
                    {0, 0}}};
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<Volume>(settingsOf(values), values.choice("storage", keepings));

@@ -1,8 +1,8 @@
-// A volume that another program made: a file of densities, or a series of them, shown by ray casting.
+// A volume from another program: a file of densities, or a series of them, shown by ray casting.
 //
-// Frame 0 shows the first moment, which preroll and warm-up hold. Between two moments density and temperature change
-// evenly; the last one stays, which makes a run invalid. Temperature, if there is a transfer function for it, is shown
-// as fire. It is kept as one box of cells, or sparse.
+// Frame 0 shows the first moment; preroll and warm-up show it too. Between two moments density and temperature change
+// linearly. After the end of a series the last moment stays, which makes a run invalid. Temperature is shown as fire if
+// there is a transfer function for it. The volume is stored as one box of cells, or sparse.
 #pragma once
 
 #include <memory>
@@ -11,10 +11,10 @@
 
 namespace dustbench::volume {
 
-/// What of a volume is in memory.
+/// The part of a volume that is kept in memory.
 enum class Keeps {
     dense,   ///< every cell of the box around its density
-    sparse,  ///< bricks with density alone
+    sparse,  ///< only bricks with density
 };
 inline constexpr Choices<Keeps> keepings{{"dense", Keeps::dense}, {"sparse", Keeps::sparse}};
 
@@ -36,7 +36,7 @@ class Volume final : public Method {
     std::unique_ptr<Storage> storage_;
 };
 
-/// What the method declares; the registry asks for it.
+/// Called by the registry.
 [[nodiscard]] MethodInfo describe();
 
 }  // namespace dustbench::volume

@@ -24,8 +24,8 @@ double share(double middle, double low, double edge) {
     return 0.5 * (std::erf((low + edge - middle) * scale) - std::erf((low - middle) * scale));
 }
 
-/// A Gaussian puff as a grid of cells within ±2.5 m, each with its average; `factor` times as dense. Averages and what
-/// is linear between them widen it: its variance grows by h²/12 and h²/6 for cells of edge h.
+/// A Gaussian puff as a grid of cells within ±2.5 m, each with its average; `factor` times as dense. Averaging and
+/// linear interpolation widen it: its variance grows by h²/12 and h²/6 for cells of edge h.
 std::string puffFile(const TestFolder& folder, const std::string& name, int cells, double factor = 1,
                      const std::string& more = "") {
     const double edge = 5.0 / cells, mass = maths::puffMassSquareMetres(opacity, radius);
@@ -103,7 +103,7 @@ TEST_F(ShownVolume, EqualsTheClosedFormOfAPuffByEveryRenderer) {
         const char *name, *value;
         double worst;
     };
-    moment_.setWall(6.2, 32);  // cuts half of it in its middle
+    moment_.setWall(6.2, 32);  // through its middle: hides half of it
     for (const auto& [name, value, bound] : {Case{"backend", "cpu", 0.006}, Case{"backend", "gl", 0.006},
                                              Case{"renderer", "slices", 0.012}, Case{"renderer", "splat", 0.09}}) {
         const auto method = made(file, {{name, value}});
@@ -120,7 +120,7 @@ double difference(const pictures::Image& a, const pictures::Image& b) {
     return maximum;
 }
 
-/// Temperatures of 20³ cells, hot on one side; and what shows them as fire.
+/// Temperatures of 20³ cells, hot on one side, and a transfer function that shows them as fire.
 std::string hotFile(const TestFolder& folder) {
     std::string hot = "<DataArray type=\"Float32\" Name=\"temperature\" format=\"ascii\">";
     for (int i = 0; i < 20 * 20 * 20; ++i) hot += i % 20 < 10 ? "300 " : std::to_string(900 + i % 600) + " ";
@@ -135,7 +135,7 @@ std::string hotFile(const TestFolder& folder) {
 }
 
 TEST_F(ShownVolume, IsTheSameSparseAndDense) {
-    // A puff touches the faces of its box; an odd number of cells is no whole number of bricks.
+    // A puff touches the faces of its box; an odd number of cells is not a whole number of bricks.
     moment_.setWall(6.2, 32);
     const std::string hot = hotFile(folder_);
     (void)puffFile(folder_, "a.vti", 27, 1);
@@ -157,7 +157,7 @@ TEST_F(ShownVolume, IsTheSameSparseAndDense) {
         }
 }
 
-/// Keeps a grid that is handed over.
+/// Keeps a copy of the grid that is handed over.
 struct Kept final : VolumeVisitor {
     void puffs(const Puffs&) override {}
     void octree(const OctreeVolume&) override {}
@@ -246,7 +246,7 @@ TEST_F(ShownVolume, ChangesEvenlyBetweenItsMomentsAndHoldsTheLast) {
     EXPECT_EQ(real(*method, "volume_held", 60), 0);
     EXPECT_LT(worst(pictureOf(*method, 90), 3), 0.01);
     EXPECT_NEAR(real(*method, "volume_held", 90), 0.5, 1e-9);
-    // Preroll and warm-up hold the first moment.
+    // Preroll and warm-up show the first moment.
     EXPECT_LT(worst(pictureOf(*method, -20), 1), 0.006);
 }
 

@@ -14,7 +14,7 @@ constexpr const char* walls = "wall";
 constexpr double secondsPastTwoWalls = 3.5;
 constexpr int width = 64, height = 48;
 
-/// Counts the particles with new serials, and those of them that lie in a solid.
+/// Counts the particles with new serials, and those of them that are in a solid.
 class NewbornCount final : public VolumeVisitor {
  public:
     explicit NewbornCount(const scene::Scene& scene) : solids_(scene) {}

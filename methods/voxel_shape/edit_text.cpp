@@ -165,7 +165,7 @@ VoxelEdit readEditWords(EditKind kind, std::string_view option, std::string_view
 
 namespace {
 
-/// The path of a shape file in `folder` for what one in `from`'s folder names; data keep their names.
+/// Converts a path in shape file `from` for a shape file in `folder`. Names of data files do not change.
 std::string renamed(const std::string& named, const fs::path& from, const fs::path& folder) {
     const fs::path beside = from.parent_path() / named;
     const bool isData = !fs::exists(beside) && !files::dataPath(fs::path("shapes") / named).empty();

@@ -27,7 +27,8 @@ enum class EditKind {
 [[nodiscard]] std::string editAsToml(EditKind kind, std::string_view option, std::string_view words,
                                      const std::filesystem::path& folder);
 
-/// Returns the edit as the reader of shape files parses it. Throws InputError for what a shape file would not allow.
+/// Returns the edit as the reader of shape files parses it. Throws InputError for edits that a shape file would not
+/// allow.
 [[nodiscard]] VoxelEdit readEditWords(EditKind kind, std::string_view option, std::string_view words);
 
 /// Returns the text of the shape file `from` with [[edit]] tables appended, to be saved in `folder`: paths are adapted

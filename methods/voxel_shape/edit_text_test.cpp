@@ -1,4 +1,5 @@
-// Edits as words on the command line: they equal the tables of a shape file, and `dustbench shape` saves them.
+// Checks that edits as words on the command line equal the tables of a shape file, and that `dustbench shape` saves
+// them.
 #include "methods/voxel_shape/edit_text.h"
 
 #include <gtest/gtest.h>
@@ -110,8 +111,8 @@ TEST(EditText, SavedAsAShapeFileAndAsVoxelsIsTheSameShape) {
         EXPECT_EQ(table[1][1], "512");
         EXPECT_LT(std::stoi(table[1][2]), 512);
     }
-    EXPECT_FALSE(fs::exists(folder.path() / "shapes/side.vti")) << "showing and saving a shape writes --save alone";
-    EXPECT_EQ(readShape(toml).savedVoxels, "") << "the edited shape leaves the other's voxels alone";
+    EXPECT_FALSE(fs::exists(folder.path() / "shapes/side.vti")) << "showing and saving writes only --save";
+    EXPECT_EQ(readShape(toml).savedVoxels, "") << "the edited shape does not overwrite the other's voxels";
     MemoryLedger ledger;
     const VoxelGrid fromText = voxelsOf(ledger, toml), fromVoxels = readVoxels(ledger, vti);
     expectSame(fromText, fromVoxels);

@@ -51,7 +51,7 @@ scene::View viewOf(const scene::Mesh& mesh, double degrees) {
     return view;
 }
 
-/// Of an outline that gains evenly up to 100 voxels a side and nothing from there on: 100.
+/// The knee of an outline that improves linearly up to 100 voxels per side and not beyond: 100.
 double kneeOfLateCurve() {
     Curve curve;
     for (int side = coarsest; side <= finest; side += between) {

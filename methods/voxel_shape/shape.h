@@ -36,7 +36,7 @@ enum class Mode {
 };
 inline constexpr Choices<Mode> modes{{"fixed", Mode::fixed}, {"paper", Mode::paper}};
 
-/// What a particle is drawn as.
+/// The primitive that a particle is drawn as.
 enum class Render { points, lines, sprites, billboards, textured, animated };
 inline constexpr Choices<Render> renders{{"points", Render::points},     {"lines", Render::lines},
                                          {"sprites", Render::sprites},   {"billboards", Render::billboards},
@@ -70,7 +70,7 @@ struct Look {
 struct FlowField {
     std::vector<std::filesystem::path> files;  ///< empty: none
     std::string field = "velocity";
-    bool followsShape = false;          ///< in the shape's frame, with which it moves; else in the world's
+    bool followsShape = false;          ///< in the shape's frame, with which it moves; otherwise in the world's
     float drawsPerSecond = 4;           ///< rate at which particles take on its velocity
     std::optional<double> fromSeconds;  ///< simulated time at which the series begins; empty: the time in its files
 };

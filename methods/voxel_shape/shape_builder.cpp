@@ -48,8 +48,8 @@ void stand(scene::Mesh& mesh, const glm::vec3& turn, float longestSideMetres) {
     for (glm::vec3& position : mesh.positions) position = scale * (position - foot);
 }
 
-/// Darkens surfaces by how far they face down. The scene does not light the puffs; this shading holds for any turn
-/// about y.
+/// Darkens surfaces by how far they face down. The scene does not light the puffs; this shading is valid for any
+/// rotation about y.
 void lightFromAbove(scene::Mesh& mesh, float share) {
     for (std::size_t i = 0; i < mesh.colours.size(); ++i) mesh.colours[i] *= 1 - share * (1 - mesh.normals[i].y) / 2;
 }

@@ -64,7 +64,7 @@ TEST(ShapeEdit, CarvesPaintsAndPushesAndIsSavedAndReadBack) {
         blue += a.colour.colour().r < 0.01f;
         pushed += a.forceKind() == Force::gravity;
     }
-    EXPECT_EQ(blue, 8) << "those about the corner in its middle; the next ones are 0.41 m away";
+    EXPECT_EQ(blue, 8) << "those around the corner at its centre; the next ones are 0.41 m away";
     EXPECT_EQ(pushed, 2 * 64);
 }
 

@@ -86,7 +86,7 @@ VoxelChange readChange(TomlReader& table) {
     return change;
 }
 
-/// The file that `key` of the shape's file `from` names.
+/// The file named by `key` in the shape file `from`.
 std::filesystem::path fileAt(TomlReader& table, std::string_view key, const std::filesystem::path& from) {
     try {
         return files::fileNamedBy(from, "shapes", table.text(key));
@@ -106,7 +106,7 @@ std::shared_ptr<const SolidSpace> readRegion(TomlReader& table, const std::files
     return std::make_shared<const SolidSpace>(mesh, glm::scale(glm::translate(glm::mat4(1), place), glm::vec3(scale)));
 }
 
-/// Reads the mesh, or `mesh_otherwise` where it is missing.
+/// Reads the mesh, or `mesh_otherwise` if it is missing.
 void readMeshName(TomlReader& file, const std::filesystem::path& from, Shape& shape) {
     const std::string mesh = file.text("mesh");
     shape.source = mesh == "vehicle" ? Source::vehicle : Source::mesh;
@@ -121,7 +121,7 @@ void readMeshName(TomlReader& file, const std::filesystem::path& from, Shape& sh
     }
 }
 
-/// A shape's file may come from a stranger, so what it writes stays in its folder and is a file of voxels.
+/// A shape file may be untrusted, so it may write only a voxel file in its own folder.
 std::filesystem::path savedVoxelsAt(TomlReader& file, const std::filesystem::path& from) {
     const std::filesystem::path named = file.text("save_voxels_as", "");
     if (named.empty()) return {};

@@ -6,9 +6,9 @@
 
 namespace dustbench::voxel_shape {
 
-/// Throws InputError with file, line, the value read and what is expected.
+/// Throws InputError with file, line, the value read and the expected values.
 [[nodiscard]] Shape readShape(const std::filesystem::path& file);
-/// Reads an edit of the shape file `from`. A mesh in it lies beside that file, or else among the data.
+/// Reads an edit of the shape file `from`. Looks for its mesh next to that file, then in the data folder.
 [[nodiscard]] VoxelEdit readEdit(files::TomlReader& table, const std::filesystem::path& from);
 
 }  // namespace dustbench::voxel_shape

@@ -1,5 +1,5 @@
 // Lights a shape by the scene's sun and sky: sets the colours of its voxels to those of a lit surface. Particles take
-// them on like any other colour of a voxel.
+// on these colours like any other colour of a voxel.
 //
 // A voxel of albedo a and normal n has the colour a·(ambient + sun·max(0, n·l)), l: direction to the sun. Without a
 // normal it gets half of the sun. Units: linear RGB. Frame: n and l in the shape's own. Owns: albedos and normals.

@@ -1,4 +1,4 @@
-// Options of a run of shapes: the paper's law or ours, a particle number to hold, several shapes at once.
+// Tests the options of a run with shapes: the paper's law or ours, a requested number of particles, several shapes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -75,7 +75,8 @@ class ModesMoment : public TestMoment {
     }
 };
 
-/// The figure's file says 4 pixels. In 10 voxels a side instead of 50 its particles are wider than that, and cover it.
+/// The figure's file sets 4 pixels. With 10 instead of 50 voxels per side its particles are wider than that and cover
+/// it.
 TEST(ShapeModes, ParticlesAreAsWideAsTheFileSaysOrAsTheyAreThemselves) {
     const auto covered = [](const char* pixels) {
         TestMoment moment(0, 320, 240, {-4, 1.6, 8}, {0, 0, -1});
@@ -118,7 +119,7 @@ TEST(ShapeModes, OfThePaperTakeItsSlicesAndItsLaw) {
     EXPECT_EQ(law.first, ours.first);
     EXPECT_LE(ours.second, 8000u);
     EXPECT_LE(slices.second, 8000u);
-    EXPECT_GT(law.second, 8100u) << "maximum density limits births alone";
+    EXPECT_GT(law.second, 8100u) << "maximum density limits only births";
     EXPECT_GT(paper.second, 8100u);
 }
 
@@ -138,7 +139,7 @@ TEST(ShapeModes, OfThePaperIsTheLawOfTheOtherShapesToo) {
         return std::get<std::int64_t>(*moment.fact(*method, "inside"));
     };
     EXPECT_LE(insideAfter("fixed"), 2064);
-    EXPECT_GT(insideAfter("paper"), 2200) << "the first shape alone stands still and holds its 64";
+    EXPECT_GT(insideAfter("paper"), 2200) << "the first shape alone is at rest and holds its 64";
 }
 
 TEST(ShapeModes, ANumberIsHeldToItsVeryMargin) {
@@ -204,7 +205,7 @@ TEST(ShapeModes, SeveralShapesAreDrawnTogetherAndCrossEachOther) {
     }
     EXPECT_GT(method->primitives(), 4400);
     const auto& drawn = systemOf(*method).particles().store;
-    EXPECT_GT(*std::ranges::max_element(drawn.velocityX), 0.5f) << "the ball has drawn some of the block along";
+    EXPECT_GT(*std::ranges::max_element(drawn.velocityX), 0.5f) << "the ball has dragged part of the block along";
     EXPECT_EQ(*std::ranges::max_element(drawn.velocityZ), 0);
     const std::string message = inputError([&] {
         folder.write("three.toml", "description = \"\"\nmesh = \"ball.obj\"\n[[also]]\nshape = \"both.toml\"\n");
@@ -214,7 +215,7 @@ TEST(ShapeModes, SeveralShapesAreDrawnTogetherAndCrossEachOther) {
 }
 
 TEST(Resolution, FindsTheKneeOfACurveThatSaturates) {
-    // 1 − e^(−x/30) between 10 and 120 lies highest above its chord where its slope equals the chord's.
+    // 1 − e^(−x/30) between 10 and 120 is highest above its chord where its slope equals the chord's.
     resolution::Curve curve;
     for (int side = 10; side <= 120; side += 2) {
         curve.voxelsASide.push_back(side);

@@ -1,14 +1,14 @@
-// Shows stress as colour: a voxel changes towards a colour by the displacement of its particles. Particles take it on
-// like any other colour of a voxel.
+// Shows stress as colour: a voxel's colour changes with the displacement of its particles. Particles take it on like
+// any other colour of a voxel.
 //
 // Let u be the vector from a particle's place of birth to its position, both in the shape's own frame. A voxel that
 // holds n particles has the displacement d = sqrt(Σ|u|²/n); its colour is mix(own, stress, min(1, d/full)). A shape at
 // rest or at constant velocity has d = 0 except for the particles' own drift (`birth_speed`); forces, air, solids and
 // acceleration increase d.
 //
-// Source: JuckelBeckhaus2007, 6 (`visualization of stress fields`). Departs: the paper names no measure; there only
-// clusters of particles show stress.
-// Units: m, linear RGB. Owns: colours and sums, on a ledger. Threads: one caller at a time.
+// Source: JuckelBeckhaus2007, 6 (`visualization of stress fields`). Departs: the paper names no measure and shows
+// stress only by clusters of particles. Units: m, linear RGB. Owns: colours and sums, on a ledger. Threads: one caller
+// at a time.
 #pragma once
 
 #include "methods/kit/memory/memory_ledger.h"

@@ -70,7 +70,7 @@ TEST(ShapeStress, OfPointGravityIsHowFarParticlesHaveFallen) {
     Pair pair(edge, Force::gravity, {0, omega, 0}, 1);
     pair.run([](int) { return Pose(); });
     const float expected = edge / 2 * (1 - std::cos(omega * dt * steps));
-    EXPECT_NEAR(pair.stress.displacements()[0], expected, 0.06f * expected) << "first order, and the scatter of 4000";
+    EXPECT_NEAR(pair.stress.displacements()[0], expected, 0.06f * expected) << "first order, and scatter of 4000";
 }
 
 TEST(ShapeStress, OfAShapeAtConstantVelocityIsNoneAndOfAnAcceleratedOneItsLag) {
@@ -91,7 +91,7 @@ TEST(ShapeStress, OfAShapeAtConstantVelocityIsNoneAndOfAnAcceleratedOneItsLag) {
         return pose;
     });
     const float seconds = dt * steps, lag = 0.5f * 0.8f * seconds * seconds;
-    EXPECT_NEAR(pushed.stress.displacements()[1], lag, 0.04f * lag) << "a few have left, newborn came for them";
+    EXPECT_NEAR(pushed.stress.displacements()[1], lag, 0.04f * lag) << "a few have left and were replaced by newborns";
 }
 
 TEST(ShapeStress, KeepsTheBirthplaceOfAParticleThatTakesAnothersRoom) {

@@ -54,7 +54,7 @@ bool isVoxelFile(const fs::path& file) {
     return file.extension() == ".vti";
 }
 
-/// Returns the shape without place in a scene, and without a file to save its voxels to.
+/// Returns the shape without a place in a scene, and without a file to save its voxels to.
 Shape shapeOf(const fs::path& file) {
     Shape shape;
     if (isVoxelFile(file)) {
@@ -142,8 +142,8 @@ std::vector<std::vector<std::string>> table(const VoxelGrid& before, const Voxel
     const auto text = [](auto number) { return std::to_string(number); };
     return {{"", "before", "after"},
             {"active voxels", text(before.active().size()), text(after.active().size())},
-            {"of another colour", text(0), text(recoloured(before, after))},
-            {"with a force", text(forced(before)), text(forced(after))},
+            {"recoloured voxels", text(0), text(recoloured(before, after))},
+            {"voxels with a force", text(forced(before)), text(forced(after))},
             {"particles held", text(particlesOf(before)), text(particlesOf(after))},
             {"voxels along x, y, z", "", place(lattice.counts)},
             {"edge of a voxel, m", "", fmt::format("{:.4g}", lattice.edgeMetres)},

@@ -26,7 +26,7 @@ TEST(ShapeTrack, GivesTheVelocitiesOfItsPoses) {
     for (int step = 0; step < 2; ++step) {
         state.timeSeconds = step * trackStep;
         const Pose pose = moving.advance(state, trackStep);
-        EXPECT_NEAR(pose.velocity.x, 2, 1e-5f) << "from the very first moment on";
+        EXPECT_NEAR(pose.velocity.x, 2, 1e-5f) << "from the first moment on";
         EXPECT_NEAR(pose.angularVelocity.y, 0.5f, 1e-5f);
         EXPECT_NEAR(pose.growth, 0.5 / (1 + state.timeSeconds / 2), 1e-5);
     }
@@ -45,7 +45,7 @@ TEST(ShapeTrack, TakesTheWayBackToItsFirstKeyForAJump) {
     }
 }
 
-/// Compares the velocity of a track beside a vehicle on a circle with the difference quotient of its positions.
+/// Compares the velocity of a track next to a vehicle on a circle with the difference quotient of its positions.
 void expectVelocityOfItsMoment(const Track& track, int firstStep) {
     ShapeTrack beside(track);
     const double radius = 30, acceleration = 3;

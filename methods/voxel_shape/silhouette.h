@@ -1,4 +1,4 @@
-// How well a picture of particles reproduces the outline of the mesh that they represent.
+// Measures how well a picture of particles reproduces the outline of the mesh that they represent.
 //
 // Units: pixels, rows from the top. Threads: pure.
 #pragma once

@@ -80,7 +80,7 @@ VoxelShape::VoxelShape(const Shape& shape) : order_(ledger_), merged_(ledger_) {
 void VoxelShape::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) {
     scene_ = &scene;
     device_ = &device;
-    // A seed of its own for each shape.
+    // Each shape gets its own seed.
     for (std::size_t i = 0; i < shapes_.size(); ++i)
         shapes_[i].prepare(ledger_, scene, device, setup.seed ^ (i * 0x9e3779b97f4a7c15ULL));
     picture_ = std::make_unique<ShapePicture>(device, shapes_.front().shape().look);
@@ -189,17 +189,17 @@ MethodInfo describe() {
         .real("fill_seconds", -1, -1, 100, "s",
               "time in which voxels replace missing particles; 0: at once; negative: as in the shape's file")
         .integer("resolution", 0, 0, maximumVoxelsASide, "voxels",
-                 "along the mesh's longest side; 0: as in the shape's file")
+                 "voxels along the mesh's longest side; 0: as in the shape's file")
         .choice("mode", Mode::fixed, modes,
                 "fixed: no voxel holds more than its maximum density; paper: the maximum density limits births only, "
-                "and the voxels are slices")
+                "and the mesh is voxelised by slices")
         .choice("voxeliser", preset, presetOr(voxelisers),
                 "every voxel that the surface touches (CPU); the paper's slices along z (GPU); or slices along all "
                 "axes; preset: as in the shape's file, with mode=paper slices")
         .choice("render", preset, presetOr(renders), "how a particle is drawn")
         .real("sprite_pixels", -1, -1, 255, "pixels",
               "width of points and sprites; 0: the size of the particles; negative: as in the shape's file")
-        .choice("blend", preset, {preset, "alpha", "additive"}, "alpha: cover what is behind; additive: add light")
+        .choice("blend", preset, {preset, "alpha", "additive"}, "alpha: cover the background; additive: add light")
         .choice("sort", preset, presetOr(orders),
                 "far to near by a radix sort or the paper's quicksort; only the nearest; every few frames; or never")
         .integer("sort_nearest", 2000, 0, 10'000'000, "", "number of particles that sort=nearest sorts")
@@ -219,7 +219,7 @@ MethodInfo describe() {
     };
     info.cannotTake = [](const scene::Scene& scene) -> std::string {
         if (!scene.vehicle) return "needs a vehicle, whose mesh or motion shapes use";
-        return scene::anySolidMoves(scene) ? "its particles meet only solids that are still" : "";
+        return scene::anySolidMoves(scene) ? "its particles collide only with solids that do not move" : "";
     };
     return info;
 }

@@ -1,5 +1,5 @@
-// Upload and drawing of 40,000 unsorted point sprites of 4 pixels, compared with a bare draw of the same sprites. The
-// bare draw binds, draws and waits; its buffer is written once. Both pictures are compared before timing.
+// Benchmarks upload and drawing of 40,000 unsorted point sprites of 4 pixels against a bare draw of the same sprites.
+// The bare draw binds, draws and waits; its buffer is written once. Both pictures are compared before timing.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ void spritesAgainstABareDraw(benchmark::State& state) {
     Motion still = shape.motion;
     still.birthSpeed = still.fillSeconds = 0;
     system.step({}, still, 1.0f / 60);
-    if (system.particles().size() != 40'000) throw std::runtime_error("the figure has not its 40,000 particles");
+    if (system.particles().size() != 40'000) throw std::runtime_error("the figure does not have 40,000 particles");
     DrawOrder order(ledger);
     const particles::ParticleStore& store = system.particles().store;
     ShapePicture picture(TestMoment::device(), shape.look);

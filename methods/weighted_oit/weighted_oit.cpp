@@ -62,14 +62,14 @@ MethodInfo describe() {
     MethodInfo info;
     info.title = "Weighted blended OIT";
     info.summary =
-        "Puffs added up in any order, weighted by distance; the cloud's alpha is exact, colours that differ are mixed.";
+        "Adds up puffs in any order, weighted by distance; the cloud's alpha is exact, different colours are mixed.";
     info.source = "McGuireBavoil2013";
     info.takesLights = true;
     info.parameters
         .choice("weight", Weight::eq7, weights,
-                "how a puff's weight falls with its distance: an equation of the paper, or not at all")
+                "decrease of a puff's weight with its distance: an equation of the paper, or none")
         .real("reach", 3.5, 2, 6, "deviations",
-              "half-side of a puff's quad, by its standard deviation; exp(-reach^2/2) of its depth is cut off");
+              "half-side of a puff's quad in standard deviations; exp(-reach^2/2) of its depth is cut off");
     info.create = [](const ParameterValues& values) {
         return std::make_unique<WeightedOit>(values.choice("weight", weights), values.real("reach"));
     };

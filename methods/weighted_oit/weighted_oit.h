@@ -1,9 +1,9 @@
-// Weighted blended order-independent transparency: puffs are added up in any order, each with a weight that falls with
-// its distance, and the mean of their colours covers the scene by the cloud's exact alpha.
+// Weighted blended order-independent transparency: puffs are added up in any order, each with a weight that decreases
+// with its distance. The mean of their colours is blended over the scene with the cloud's exact alpha.
 //
-// Source: McGuireBavoil2013, Eq. 6 to 10. Departs: a puff's alpha is that of its own optical depth along the pixel's
-// ray, cut by eye and scene in closed form; the cloud's is 1 − exp(−Σ) in place of 1 − Π(1 − α), which is the same;
-// sums are single precision where the paper's are half; the far plane of Eq. 10 is at infinity.
+// Source: McGuireBavoil2013, Eq. 6 to 10. Departs: a puff's alpha follows from its optical depth along the pixel's ray,
+// limited by eye and scene in closed form. The cloud's alpha is 1 − exp(−Σ) instead of 1 − Π(1 − α), which is equal.
+// Sums are single instead of half precision. The far plane of Eq. 10 is at infinity.
 #pragma once
 
 #include <optional>

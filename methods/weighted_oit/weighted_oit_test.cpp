@@ -11,7 +11,7 @@
 namespace dustbench::weighted_oit {
 namespace {
 
-constexpr double wide = 6;  ///< reach of quads that cut off nothing
+constexpr double wide = 6;  ///< reach of quads that cut nothing off
 
 class Cloud : public TestMoment {
  public:
@@ -80,7 +80,7 @@ TEST(WeightedOit, IsExactForOneColour) {
     }
 }
 
-/// Two puffs on the axis: the mean that the paper's Eq. 6 gives, and so its error against the exact picture.
+/// Two puffs on the axis: the mean by the paper's Eq. 6, and hence its error against the ground truth.
 TEST(WeightedOit, MixesTwoLayersByTheirWeightsAndErrsByTheClosedForm) {
     const glm::dvec3 red(1, 0, 0), blue(0, 0.2, 1);
     for (const auto& choice : weights.all())

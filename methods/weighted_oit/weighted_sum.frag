@@ -1,4 +1,4 @@
-// Σ α·w·c and Σ α·w of the puffs before the scene, and the sum of their depths.
+// Σ α·w·c and Σ α·w of the puffs in front of the scene, and the sum of their depths.
 // Source: McGuireBavoil2013, Eq. 6 to 10. Departs: Eq. 10 with the far plane at infinity.
 flat in vec4 centre;
 flat in float logDepth;
@@ -14,7 +14,7 @@ layout(binding = 0) uniform sampler2D sceneDepth;
 layout(location = 0) out vec4 weighted;
 layout(location = 1) out float depthSum;
 
-/// By the distance along the camera's axis, and the puff's alpha.
+/// Weight by the distance along the camera's axis and the puff's alpha.
 float weightOf(float z, float alpha) {
 #if WEIGHT == 7
     float five = z / 5.0, far = z / 200.0;

@@ -1,4 +1,4 @@
-// Charts on the page: each with its controls, its note, and buttons that save it as picture or as numbers.
+// Charts on the page, each with its controls, its note, and buttons that save it as a picture or as numbers.
 //
 // chartCards(report, look) gives {add, drawAll, drawFirst}; `look` is {theme, hidden, paperWidth} and is read at each
 // drawing. paperWidth, while the page is printed, is the width of the paper in pixels.
@@ -6,7 +6,7 @@ const chartCards = (report, look) => {
     const { element, put, paragraph, button, download, csv } = pageKit;
     const charts = [];
 
-    // What a point says under the pointer.
+    // The tooltip of the point under the pointer.
     const tooltip = document.getElementById('tooltip');
     const showTooltip = (handler, event, item, value) => {
         tooltip.hidden = !value;
@@ -22,7 +22,7 @@ const chartCards = (report, look) => {
     };
 
     const valueFrom = (key, text) => (text === 'true' ? true : text === 'false' ? false : key === 'run' ? Number(text) : text);
-    /// What another choice makes meaningless: another quantity has a scale of its own.
+    /// The choices that another choice resets: each quantity has its own scale.
     const dependent = { x: ['xLog'], column: ['yLog'], metric: ['yLog'], against: ['xLog'] };
 
     /// Buttons that save what `now()` gives: {view, built}.
@@ -55,7 +55,7 @@ const chartCards = (report, look) => {
                         select.replaceChildren(...worlds.map(world => new Option(world, world)));
                     select.parentElement.hidden = worlds.length < 2;
                 }
-                // A scale belongs to curves; bars have none to choose.
+                // Only curves have a choice of scales.
                 if (key === 'xLog' || key === 'yLog') select.parentElement.hidden = state[key] === undefined;
                 if (state[key] !== undefined) select.value = String(state[key]);
             }
@@ -63,7 +63,7 @@ const chartCards = (report, look) => {
         const drawing = async () => {
             if (view) view.finalize();
             view = null;
-            if (!place.clientWidth) return;  // in a part that is folded away
+            if (!place.clientWidth) return;  // in a folded part
             const width = look.paperWidth || Math.max(Math.floor(place.clientWidth), 260);
             built = chartKit.build(report, { ...chart, ...settings, width, theme: look.theme, hidden: look.hidden });
             const { spec, config, notes, empty, state } = built;
@@ -80,7 +80,7 @@ const chartCards = (report, look) => {
             await view.runAsync();
             place.querySelector('svg')?.setAttribute('aria-label', `${chart.id}: ${spec.description}`);
         };
-        // One after the other, so that a late one never lies over the newest.
+        // One drawing after another, so that an older one never covers a newer one.
         const draw = () => (drawnLast = drawnLast.then(drawing));
         for (const [key, label, options] of controls) {
             if (options.length < 2 && key !== 'world') continue;
@@ -101,14 +101,14 @@ const chartCards = (report, look) => {
         charts.push({ draw, place });
     };
     const drawAll = () => Promise.all(charts.map(chart => chart.draw()));
-    /// One chart a turn, so that the page can be read and scrolled from the start.
+    /// Draws one chart at a time, so that the page can be read and scrolled from the start.
     const drawFirst = async () => {
         for (const chart of charts) {
             await chart.draw();
             await new Promise(resolve => setTimeout(resolve));
         }
     };
-    /// The charts in a part that was folded away.
+    /// Draws the charts in a part that was folded.
     const drawWithin = part => Promise.all(charts.filter(chart => part.contains(chart.place)).map(chart => chart.draw()));
     return { add, drawAll, drawFirst, drawWithin };
 };

@@ -1,4 +1,4 @@
-// What charts and tables ask of the report's data: names, values and orders of cells. Pure, as charts.js is.
+// Reads the report's data for charts and tables: names, values and order of configurations. Pure, as charts.js is.
 const chartData = (() => {
     const distinct = list => [...new Set(list)];
     const factOf = (report, name) => (report.data.facts || []).find(fact => fact.name === name);
@@ -8,7 +8,7 @@ const chartData = (() => {
         const fact = factOf(report, name);
         return { name: name.replace(/_(median|bytes|ms)$/, '').replace(/_/g, ' '), unit: fact ? fact.unit.replace(/^1$/, '') : '', better: '' };
     };
-    /// `primitives drawn` needs no unit behind it.
+    /// `primitives drawn` needs no unit after it.
     const axisTitle = (name, unit) => {
         const text = name.replace(/_/g, ' ');
         if (!unit || text.split(' ').includes(unit)) return text;
@@ -54,7 +54,7 @@ const chartData = (() => {
         return [...cells].sort((a, b) => world(a, b) || method(a, b) || own(a, b) || a.machine - b.machine);
     };
 
-    // A seed is no load but a draw: its cells become one, with the median over the seeds and its interval.
+    // Configurations that differ only in the seed become one, with the median over the seeds and its interval.
 
     /// Median, and the order statistics that contain the true one with 95 % probability; the range below 6 values
     /// (bench/report/median_interval.h).
@@ -91,7 +91,7 @@ const chartData = (() => {
         return { ...experiment, axes, cells: [...groups.values()].map(mergedCell), fits: [] };
     };
 
-    // Loads: what varies and every cell has, numbers first. A setting that some methods lack is no common load.
+    // Loads are settings that vary and that every configuration has, numbers first.
     const byUse = (a, b) => b.numeric - a.numeric || (b.name === 'particles') - (a.name === 'particles') || b.world - a.world || b.values.length - a.values.length;
     const loadsOf = experiment => experiment.axes.filter(axis => !['seed', 'frames'].includes(axis.name) &&
         experiment.cells.every(cell => cell.settings[axis.name] !== undefined || cell.method === chartStyle.baseline)).sort(byUse);
@@ -99,10 +99,10 @@ const chartData = (() => {
     const known = (report, experiment, kind) => Object.keys(report.columns).filter(name => report.columns[name][kind] && has(experiment, name));
     const costsOf = (report, experiment) => known(report, experiment, 'cost');
     const metricsOf = (report, experiment) => (has(experiment, 'flip') ? known(report, experiment, 'metric') : []);
-    /// What a picture may be held against as its cost; runs without times have memory and primitives alone.
+    /// The costs that image error can be plotted against. Runs without times have only memory and primitives.
     const chargesOf = (report, experiment) => ['frame_ms_median', 'method_ms_median', 'memory_bytes', 'gpu_bytes', 'cpu_bytes', 'primitives_median']
         .filter(name => costsOf(report, experiment).includes(name));
-    /// All that a chart can show: costs, metrics, and facts of methods.
+    /// Everything that a chart can show: costs, metrics, and columns that methods declare.
     const quantitiesOf = (report, experiment) => distinct([...costsOf(report, experiment), ...known(report, experiment, 'metric'),
         ...(report.data.facts || []).map(fact => fact.name).filter(name => has(experiment, name))]);
     return { columnOf, axisTitle, shown, isWhole, valueOf, sized, settingText, tied, variantOf, worldOf, inOrder, distinct, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf, chargesOf, factOf };

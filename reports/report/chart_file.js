@@ -1,4 +1,4 @@
-// Node draws one chart as SVG: `node SCRIPT ID FILE`. What stands before this in the script is the page's own.
+// Node draws one chart as SVG: `node SCRIPT ID FILE`. The code before this in the script is that of the page.
 (async () => {
     const [, , id, file] = process.argv;
     const report = { data: reportData, columns: reportColumns, specifications: reportCharts };

@@ -1,9 +1,9 @@
-// What the builders of charts share: colours of series, panels, scales, rows of bars. Pure, as charts.js is.
+// Shared by the builders of charts: colours of series, panels, scales, rows of bars. Pure, as charts.js is.
 const chartParts = (() => {
     const { methodColours, baselineColour, baseline, colourOf, themes, shapes, dashes, digits, withUnit, mixed } = chartStyle;
     const { valueOf, variantOf, worldOf, inOrder, distinct } = chartData;
 
-    /// By the methods' names; where two on a page fall on the same colour, the later in the alphabet takes the next.
+    /// Colours by method name. If two methods on a page get the same colour, the later in the alphabet takes the next one.
     const coloursOf = report => {
         const taken = new Map();
         const names = distinct(report.data.experiments.flatMap(item => item.cells.map(cell => cell.method))).filter(name => name !== baseline);
@@ -19,9 +19,9 @@ const chartParts = (() => {
         const places = report.colours || (report.colours = coloursOf(report));
         return methodColours[theme][places.get(method) ?? colourOf(method)];
     };
-    /// A method's own colour, darker (lighter on black) from one of its variants to the next; shapes and dashes as well.
+    /// Variants of a method share its colour, from light to dark (dark to light on black), and differ in shape and dashes.
     const seriesStyles = (report, series, theme) => {
-        const perMethod = Object.create(null); // a method may be called like a property of every object
+        const perMethod = Object.create(null); // a method may have the name of a property that every object has
         for (const { method } of series) perMethod[method] = (perMethod[method] || 0) + 1;
         const counted = Object.create(null);
         return series.map(({ method }) => {
@@ -45,7 +45,7 @@ const chartParts = (() => {
         const columns = panels === 1 || width < 620 ? 1 : panels === 2 || panels === 4 || width < 900 ? 2 : 3;
         return { columns, each: Math.floor((width - 8 - (columns - 1) * 26) / columns - 66) };
     };
-    /// As many as fit, but in so many rows that all are full: Vega fills them row by row.
+    /// As many columns as fit, reduced so that the rows are evenly filled: Vega fills them row by row.
     const legendColumns = (width, longest, count) => {
         const most = Math.max(Math.floor(width / (longest * 7.2 + 46)), 1);
         return Math.ceil(count / Math.ceil(count / most));
@@ -77,7 +77,7 @@ const chartParts = (() => {
         for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); ++power) ticks.push(...factors.map(factor => Number((factor * 10 ** power).toPrecision(1))));
         return ticks.filter(tick => tick >= low && tick <= high);
     };
-    /// All of these ticks, but those whose labels would overlap: of more than its count Vega leaves out every other.
+    /// All of these ticks except those whose labels would overlap. Vega drops every other tick beyond tickCount.
     const setTicks = (axis, values) => values && Object.assign(axis, { values, tickCount: values.length });
     const spans = (values, factor) => {
         const above = values.filter(value => value > 0);
@@ -91,11 +91,11 @@ const chartParts = (() => {
         return `${withUnit(low, unit)} to ${withUnit(high, unit)}${share}`;
     };
     const runsText = cell => (cell.seeds > 1 ? `${cell.runs.length} with ${cell.seeds} seeds` : String(cell.runs.length));
-    const missing = { empty: 'No method that is switched on has these numbers.' };
+    const missing = { empty: 'The current selection has no values to show.' };
 
     const mostRows = 16;
-    /// Rows of bars: a heading for each world, a row for each cell under it. If there are too many, of one world at a
-    /// time, apart from the setting `along`.
+    /// Rows of bars: a heading for each world, a row for each configuration under it. If there are too many, only one world
+    /// is shown at a time, with all values of the setting `along`.
     const rowsOf = (report, experiment, cells, asked, along) => {
         const all = inOrder(experiment, cells);
         const several = all.length > mostRows;

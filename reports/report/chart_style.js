@@ -1,17 +1,17 @@
 // Colours, shapes and texts that all charts share. Pure, as charts.js is.
 const chartStyle = (() => {
-    // Told apart by people who see few colours (after Okabe and Ito), and against either background by 3 : 1 or more.
+    // Distinguishable with colour blindness (after Okabe and Ito), with a contrast of 3 : 1 or more on either background.
     const methodColours = {
         light: ['#0072b2', '#c44f00', '#6a3fb5', '#b3273a', '#7a4a2b', '#1f4e9c', '#00737f', '#007a5a', '#5b6b00', '#8a6a00', '#a3458b'],
         dark: ['#58b0e8', '#ff8f52', '#b79aff', '#ff7f8d', '#d0a07a', '#8aa8ff', '#4fc3d6', '#3ecaa0', '#bccb4f', '#e2bd35', '#e394c9'],
     };
     const baselineColour = { light: '#5a5f66', dark: '#b9bec5' };
     const baseline = 'null_method';
-    /// A method's place among the colours, from its name alone: the same in every report, whatever methods a build has.
-    /// The factor gives the delivered methods colours of their own.
+    /// A method's index among the colours, from its name alone: the same in every report, whatever methods a build has. The
+    /// factor gives each method of this project a different colour.
     const colourOf = name => [...name].reduce((sum, letter) => (sum * 1947 + letter.codePointAt(0)) % 65521, 0) % methodColours.light.length;
     const stages = ['input', 'simulate', 'build', 'sort', 'upload', 'scene', 'draw', 'wait'];
-    /// No method's colours: paler than those on white, deeper on black.
+    /// Different from the methods' colours: paler on white, deeper on black.
     const stageColours = {
         light: ['#9aa1a9', '#7cc4f0', '#63cfa6', '#f2d04a', '#ea9fd2', '#d3d8dd', '#ff9450', '#f6c9a8'],
         dark: ['#8b929a', '#2b76b3', '#1d8060', '#9c7a10', '#9a3f80', '#555d66', '#c2500f', '#7d4a2b'],
@@ -39,8 +39,8 @@ const chartStyle = (() => {
         };
     };
 
-    // Texts of numbers: three digits say all that a measurement holds, the zeros at its end too; small whole numbers are whole.
-    // What somebody wrote, a limit or a tick, is as it was written: `written`.
+    // Texts of numbers: measurements have three digits, with trailing zeros; small whole numbers have no decimals. A limit or
+    // a tick appears as it was written: `written`.
     const grouped = text => text.replace(/^(-?\d+)/, whole => whole.replace(/\B(?=(\d{3})+$)/g, ','));
     const digits = (value, count = 3, written = false) => {
         if (value === null || value === undefined || !Number.isFinite(value)) return '–';
@@ -54,20 +54,20 @@ const chartStyle = (() => {
         const text = isWhole && (written || size < 1e4) ? String(value) : value.toPrecision(count);
         return grouped(isWhole || written || text.includes('e') ? String(Number(text)) : text).replace('-', '−');
     };
-    /// The number that `digits` says.
+    /// The number that `digits` shows.
     const said = (value, count, written = false) => {
         const size = Math.abs(value);
         if (!written && size !== 0 && (size < 1e-3 || size >= 1e9)) return Number(value.toExponential(count - 2));
         return Number.isInteger(value) && (written || size < 1e4) ? value : Number(value.toPrecision(count));
     };
-    /// Between a number and its unit: no line breaks there.
+    /// A space without a line break, between a number and its unit.
     const gap = '\u00a0';
     /// The unit of bytes that leaves one to three digits before the point.
     const bytesText = (value, count, written) => {
         const step = Math.min(Math.max(Math.floor(Math.log10(Math.abs(value) || 1) / 3), 0), 3);
         return `${digits(value / 1000 ** step, count, written)}${gap}${['bytes', 'kB', 'MB', 'GB'][step]}`;
     };
-    /// A number in another unit: without what the factor adds to it far behind the point.
+    /// A number in another unit, without the rounding errors of the factor.
     const times = (value, factor) => Number((value * factor).toPrecision(12));
     const withUnit = (value, unit, count = 3, written = false) => {
         if (value === null || value === undefined || !Number.isFinite(value)) return '–';

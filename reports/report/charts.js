@@ -1,4 +1,4 @@
-// From the report's data to Vega specifications: the same in a browser and in node, and nothing of either is used.
+// From the report's data to Vega specifications. Runs in a browser and in node, and uses no API of either.
 //
 // chartKit.list(data) names the charts; chartKit.build(report, chart) gives {spec, config, notes, table, state} or
 // {empty: reason}. `report` is {data, columns, specifications}; `chart` is an entry of the list with any of
@@ -9,7 +9,7 @@ const chartKit = (() => {
     const { columnOf, valueOf, variantOf, worldOf, distinct, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf } = chartData;
     const { methodColour, fresh, setSignals, setData, setScale, domainOf, missing } = chartParts;
 
-    /// The cells of an experiment that charts and tables show: seeds are draws of the same, not settings.
+    /// An experiment as charts and tables show it, with seeds combined.
     const shownOf = experiment => experiment.shown || (experiment.shown = overSeeds(experiment));
 
     const list = report => {
@@ -28,7 +28,7 @@ const chartKit = (() => {
     const buildFrames = (report, chart) => {
         const frames = report.data.frames.filter(item => !chart.hidden.has(item.label.split(/[ ,]/)[0]));
         if (!frames.length) return missing;
-        // It opens on the longest run of a method that draws something.
+        // Opens on the longest run of a method that draws something.
         const methodOf = item => item.label.split(/[ ,]/)[0];
         const drawing = frames.filter(item => methodOf(item) !== baseline);
         const longest = (drawing.length ? drawing : frames).reduce((most, item) => (item.frames > most.frames ? item : most));
@@ -46,7 +46,7 @@ const chartKit = (() => {
         const spec = fresh(report.specifications.frames);
         const narrow = chart.width < 620;
         const both = chart.width - 2 * 58 - 30;
-        // So few frames are no distribution.
+        // Fewer frames are not a distribution.
         const isCounted = run.frames >= 10;
         setSignals(spec, {
             panelWidth: narrow || !isCounted ? chart.width - 66 : Math.round(both * 0.72), sideWidth: narrow ? chart.width - 66 : Math.round(both * 0.28),
@@ -57,7 +57,7 @@ const chartKit = (() => {
         setData(spec, 'bins', bins);
         if (!isCounted) spec.marks.pop();
         setScale(spec, 'ms', { domain: domainOf([low, low + width * run.bins.length], false, false) });
-        const thinned = run.trace.length < run.frames ? ` Of ${run.frames} frames the trace shows the shortest and the longest of each stretch.` : '';
+        const thinned = run.trace.length < run.frames ? ` The trace shows the shortest and the longest frame of each stretch of the ${run.frames} frames.` : '';
         return {
             spec, notes: [`${words.labelText(run.label)}${experiment ? `; ${experiment.title}` : ''}. Dashed: the median.` + thinned], state: { run: run.run },
             table: { columns: [['frame', ''], ['frame_ms', 'ms']], rows: run.trace },
@@ -75,16 +75,16 @@ const chartKit = (() => {
             return machines.length > 1 ? `machine ${index + 1}, ${said}` : said;
         });
     };
-    /// Node has no fonts: Vega takes a letter to be this wide there, in sizes of the font.
+    /// Node has no fonts, so Vega assumes this letter width there, in font sizes.
     const letterWidth = 0.8, captionSize = 11;
-    /// A sentence in lines of so many letters.
+    /// Breaks a sentence into lines of at most this many letters.
     const wrapped = (text, letters) => text.split(' ').reduce((lines, word) => {
         const last = lines[lines.length - 1];
         if (last !== undefined && last.length + 1 + word.length <= letters) lines[lines.length - 1] = `${last} ${word}`;
         else lines.push(word);
         return lines;
     }, []);
-    /// Below the chart, so that it is part of every picture of it: what its marks mean, and the device of the numbers.
+    /// Adds the caption below the chart, so that every saved picture has it: the meaning of the marks, and the device.
     const withCaption = (report, asked, built) => {
         if (!built.spec) return built;
         const devices = devicesOf(report, asked.experiment);

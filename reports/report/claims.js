@@ -1,9 +1,9 @@
-// The claims of a paper, each as a reviewer's paragraph: claimed, tested how, came out, control, what would change it.
+// The claims of a paper, each as a reviewer's paragraph: claim, result, test, control, and what would change the verdict.
 const claimList = (() => {
     const { element, put, shape, plural } = pageKit;
     const { withUnit } = chartStyle;
     const verdictMarks = { confirmed: '✓', refuted: '✗', depends: '±', unresolved: '?', untestable: '!', 'not-tested': '–' };
-    const controlTexts = { turned: 'control turned', 'not-turned': 'control did not turn', 'not-run': 'control not run' };
+    const controlTexts = { turned: 'control reversed it', 'not-turned': 'control did not reverse it', 'not-run': 'control not run' };
 
     /// Numbers at which a scale has ticks: 1, 2 or 5 times powers of ten; on a logarithmic one of many decades, tens.
     const ticksOf = (low, high, log) => {
@@ -14,7 +14,7 @@ const claimList = (() => {
             const within = ticks.filter(tick => tick >= low && tick <= high);
             if (within.length > 1) return within.filter((tick, index) => index % Math.ceil(within.length / 4) === 0);
         }
-        // One tick alone is no scale: then the next finer step.
+        // A scale needs at least two ticks: otherwise take the next finer step.
         const stepOf = place => [1, 2, 5][(place % 3 + 3) % 3] * 10 ** Math.floor(place / 3);
         let place = 3 * Math.floor(Math.log10((high - low) / 3));
         while (stepOf(place) < (high - low) / 3) ++place;
@@ -24,9 +24,9 @@ const claimList = (() => {
             if (ticks.length > 1) return ticks;
         }
     };
-    /// In the unit of the sentence beside it, which need not say more than % or × of it.
+    /// In the unit of the claim's sentence, shortened to % or × where possible.
     const tickText = (tick, unit) => withUnit(tick, unit.startsWith('share') ? 'share' : ['×', 'ms', 'bytes'].includes(unit) ? unit : '', 12, true);
-    /// Where the measured interval lies to the values for which the claim is true, on a scale.
+    /// A scale with the measured interval and the values for which the claim is true.
     const rangePicture = (claim, unit) => {
         if (claim.measured === null || (claim.min === null && claim.max === null)) return '';
         const width = 260, edge = 18;
@@ -41,7 +41,7 @@ const claimList = (() => {
         const svg = shape('svg', { viewBox: `0 0 ${width} 40`, class: 'claim-range', role: 'img' });
         const [from, to] = [claim.min === null ? edge : at(claim.min), claim.max === null ? width - edge : at(claim.max)];
         const title = shape('title');
-        title.textContent = `true within the green: ${words.rangeOf(claim, unit)}; measured ${words.measuredText(claim, unit)}`;
+        title.textContent = `true in the green range, ${words.rangeOf(claim, unit)}; measured ${words.measuredText(claim, unit)}`;
         put(svg, title, shape('rect', { x: from, y: 3, width: Math.max(to - from, 1), height: 16, fill: 'var(--good)', 'fill-opacity': 0.2 }));
         for (const bound of [claim.min, claim.max])
             if (bound !== null) put(svg, shape('line', { x1: at(bound), x2: at(bound), y1: 3, y2: 19, stroke: 'var(--good)', 'stroke-width': 1.5 }));
@@ -61,13 +61,13 @@ const claimList = (() => {
     };
 
     const cellList = (claim, unit) => element('details', {}, [
-        element('summary', { textContent: `cell by cell: ${words.cellsOf(claim)}` }),
+        element('summary', { textContent: `by configuration: ${words.cellsOf(claim)}` }),
         element('ul', { className: 'cells' }, claim.cells.map(cell => element('li', {}, [
             element('span', { className: `verdict ${cell.verdict}`, textContent: verdictMarks[cell.verdict] }),
             ` ${words.cellText(claim, cell.text)}: ${words.measuredText(cell, unit, claim)}`,
         ]))),
     ]);
-    /// The experiments of a suite may be there in both forms: the one whose runs were used.
+    /// A folder may contain both the quick and the full experiment of a suite: the one whose runs were used.
     const experimentOf = (report, claim) => {
         if (!claim.suite) return undefined;
         const used = new Set(claim.runs);
@@ -75,7 +75,7 @@ const claimList = (() => {
         return own.find(item => item.cells.some(cell => cell.runs.some(run => used.has(run)))) || own[0];
     };
 
-    /// What stands between backticks is code.
+    /// Text between backticks is code.
     const marked = text => text.split('`').map((part, index) => (index % 2 ? element('code', { textContent: part }) : part));
 
     /// `runLinks(indices, text)` makes links to runs.
@@ -89,7 +89,7 @@ const claimList = (() => {
         if (claim.condition) put(came, ` ${words.upper(words.cellText(claim, claim.condition))}.`);
         if (claim.note) put(came, element('span', { className: 'muted', textContent: ` ${words.upper(claim.note)}.` }));
         const change = words.changeOf(report, claim);
-        const lines = [['came out', came]];
+        const lines = [['result', came]];
         if (claim.measured !== null || claim.runs.length) lines.push(['tested', tested]);
         if (claim.controls.length) lines.push(['control', element('dd', {}, marked(`${words.upper(controlTexts[claim.control] || '')}: ${words.controlsOf(report, claim)}.`))]);
         if (change) lines.push(['would change it', element('dd', { textContent: change })]);

@@ -1,13 +1,13 @@
-// The chart of a quantity: curves against a load, or bars of all methods and settings where there is none. Pure, as
+// The chart of a quantity: curves against a load, or bars of all methods and settings if there is no load. Pure, as
 // charts.js is.
 const costChart = (() => {
     const { themes, digits, withUnit } = chartStyle;
     const { columnOf, axisTitle, shown, isWhole, valueOf, variantOf, worldOf, inOrder, distinct, loadsOf, quantitiesOf } = chartData;
     const { seriesStyles, methodColour, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, legendLines, domainOf, logTicks, setTicks, spans, intervalText, runsText, missing, rowsOf, widestText, tableOf } = chartParts;
-    /// Instead of a load: each setting is a bar.
+    /// The choice of bars, one for each setting, in place of a load.
     const bars = 'bars';
 
-    /// By this a chart groups the points of a line: Vega keeps groups as properties of an object, which has some already.
+    /// The key that groups the points of a line. Its prefix avoids names that every object has: Vega keeps groups as properties.
     const lineOf = series => `line ${series}`;
     const fitCurves = (experiment, x, column, theSeries, thePanel, min, max) => {
         const rows = [];
@@ -42,7 +42,7 @@ const costChart = (() => {
         return { series: name, text: name, panel: '', y: last.y };
     }), domain, log, height);
 
-    /// What the chart shows: asked for, else what its suite opens on, else the frame rate over the first load.
+    /// The quantity and load to show: the requested ones, else those that the suite names, else the frame rate over the first load.
     const choose = (report, chart) => {
         const { experiment } = chart;
         const opens = experiment.chart || {};
@@ -59,7 +59,7 @@ const costChart = (() => {
             title,
             ...(load ? { [load.name]: `${cell.settings[load.name]}${load.unit && load.unit !== load.name ? ' ' + load.unit : ''}` } : {}),
             [info.name]: withUnit(valueOf(cell, column)[0], info.unit),
-            'from … to': intervalText(cell, valueOf(cell, column), info.unit),
+            range: intervalText(cell, valueOf(cell, column), info.unit),
             runs: runsText(cell),
         };
     };
@@ -71,7 +71,7 @@ const costChart = (() => {
             .filter(cell => cell.settings[load.name] !== undefined && valueOf(cell, column) && !chart.hidden.has(cell.method));
         if (!cells.length) return missing;
 
-        // One method in one setting: its lines share a panel, one for each world.
+        // One method with one setting: its lines share a panel, a line for each world.
         const panels = distinct(cells.map(cell => worldOf(experiment, cell, load.name)));
         const alone = distinct(cells.map(cell => variantOf(report, experiment, cell, load.name))).length === 1 && panels.length > 1 && panels.length <= 7;
         const thePanel = cell => (alone ? '' : worldOf(experiment, cell, load.name));
@@ -88,12 +88,12 @@ const costChart = (() => {
         const beside = [...published.marks, ...published.scaled].map(row => row.y).concat(bands.flatMap(band => [band.min, band.max]));
         const yLog = chart.yLog ?? spans(points.map(point => point.y).concat(beside), beside.length ? 10 : 60);
         const seen = points.filter(point => (!xLog || point.x > 0) && (!yLog || point.low > 0));
-        if (!seen.length) return { empty: 'No value is above 0; a logarithmic scale cannot show it.' };
+        if (!seen.length) return { empty: 'A logarithmic scale cannot show these values: none is above 0.' };
         const curves = xs.length > 1 ? fitCurves(experiment, load.name, column, theSeries, thePanel, xs[0], xs[xs.length - 1])
             .filter(row => seen.some(point => point.series === row.series && point.panel === row.panel)) : [];
         const series = distinct(seen.map(point => point.series))
             .map(name => ({ name, method: cells.find(cell => theSeries(cell) === name).method }));
-        // Side by side, so that intervals of equal loads do not hide each other.
+        // Next to each other, so that intervals of equal loads do not hide each other.
         const gap = Math.min(5, 24 / series.length);
         for (const point of seen) point.shift = gap * (series.findIndex(({ name }) => name === point.series) - (series.length - 1) / 2);
         const styles = seriesStyles(report, series, theme);
@@ -106,7 +106,7 @@ const costChart = (() => {
         const panelWidth = Math.max(each - labelRoom, 120);
         const panelHeight = single ? 320 : Math.max(170, Math.min(240, Math.round(panelWidth * 0.75)));
         const yDomain = domainOf(seen.flatMap(point => [point.y, point.low, point.high]).concat(beside, published.marks.flatMap(mark => [mark.low, mark.high])), yLog, true);
-        // Room for the points that are drawn apart from their load.
+        // Space for points that are shifted from their load.
         const edge = Math.max(0.04, (gap * (series.length - 1) / 2 + 8) / panelWidth);
         const xRoom = (xs[xs.length - 1] - xs[0]) * edge || 1, xFactor = (xs[xs.length - 1] / xs[0]) ** edge;
 

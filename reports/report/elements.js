@@ -1,4 +1,4 @@
-// Makes the elements of the page. All texts go in as text, none as markup.
+// Makes the elements of the page. All strings become text, never markup.
 const pageKit = (() => {
     /// element('td', { className: 'number', textContent: '3' }, [children])
     const element = (tag, properties = {}, children = []) => {

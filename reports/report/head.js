@@ -1,4 +1,4 @@
-// The first screen: whose experiments these are, how far to trust them, what came out, what is faster.
+// The first screen: the paper, how far to trust the numbers, the verdicts, and which method is faster.
 const pageHead = (() => {
     const { element, put, paragraph } = pageKit;
     const { plural, upper, listOf, comparisonSentence } = words;
@@ -15,11 +15,11 @@ const pageHead = (() => {
         const ofSuites = experiments.filter(experiment => experiment.suite);
         const quick = ofSuites.filter(isQuick).length;
         if (!ofSuites.length) return '';
-        if (!quick) return 'whole form';
+        if (!quick) return 'full run';
         const both = ofSuites.some(experiment => isQuick(experiment) && ofSuites.some(other => other.suite === experiment.suite && !isQuick(other)));
-        return both ? 'whole and quick form' : 'quick form: fewer loads, smaller pictures, shorter runs';
+        return both ? 'full and quick run' : 'quick run: fewer loads, smaller pictures, fewer frames';
     };
-    /// What the warnings have in common, before the colon: `the machine is busy`, `frames stalled`.
+    /// Warnings by kind, which is their text before the colon: `the machine is busy`, `frames stalled`.
     const kindsOf = data => {
         const kinds = new Map();
         for (const { warning, runs } of data.warnings) {
@@ -28,7 +28,7 @@ const pageHead = (() => {
         }
         return [...kinds].sort((a, b) => b[1].size - a[1].size);
     };
-    /// Without what stands in brackets, and not longer than a line.
+    /// Without text in brackets, and at most one line long.
     const shortOf = kind => {
         const text = kind.replace(/ *\([^)]*\)/g, '');
         return text.length > 75 ? text.slice(0, 72).replace(/\s+\S*$/, '') + ' …' : text;
@@ -40,7 +40,7 @@ const pageHead = (() => {
         return `${touched} of ${data.runs.length} runs with warnings: ${short.join(', ')}${kindsOf(data).length > 3 ? ' …' : ''}`;
     };
 
-    /// What a reader must know before any number: [text, whether it is a reason for doubt].
+    /// Facts to know before reading any number: [text, whether it is a reason for doubt].
     const trustOf = (data, experiments) => {
         const seeds = Math.max(0, ...experiments.map(experiment => experiment.axes.find(axis => axis.name === 'seed')?.values.length || 0));
         const repetitions = Math.max(0, ...experiments.flatMap(experiment => experiment.cells.map(cell => cell.runs.length)));
@@ -49,13 +49,13 @@ const pageHead = (() => {
         if (form) items.push([form, isQuick(experiments.find(experiment => experiment.suite))]);
         items.push([[plural(Math.max(seeds, 1), 'seed'), plural(repetitions, 'repetition')].join(', '), repetitions < 6 && seeds < 5]);
         items.push([warningsText(data), data.warnings.length > 0]);
-        if (data.notDone.length) items.push([`${data.notDone.length} of ${data.runs.length} runs are not done`, true]);
+        if (data.notDone.length) items.push([`${data.notDone.length} of ${data.runs.length} runs not completed`, true]);
         for (const renderer of new Set(data.machines.map(rendererText))) items.push([renderer, renderer.startsWith('software')]);
         return items;
     };
 
-    /// Without comparisons in a suite: the first experiment with several methods in one world, at its last load. Runs of
-    /// no suite were chosen to be compared, settings of one method too.
+    /// The answer if no suite declares comparisons: the first experiment with several methods in one world, at its last load.
+    /// Runs outside suites were chosen to be compared, so settings of one method count as well.
     const fastestOf = (report, experiments) => {
         for (const whole of experiments) {
             const experiment = shownOf(whole);
@@ -71,12 +71,12 @@ const pageHead = (() => {
             const sure = first.runs.length < 2 ? 'one run each: not resolved' : a[2] < b[1] ? 'their intervals do not overlap' : 'their intervals overlap: not resolved';
             return [{
                 head: `${variantOf(report, experiment, first)} has the shortest ${columnOf(report, column).name}`,
-                text: `${text(a)}, next ${variantOf(report, experiment, second)} with ${text(b)}; ${sure}${world ? `; at ${world}` : ''}.`, experiment,
+                text: `${text(a)}, followed by ${variantOf(report, experiment, second)} with ${text(b)}; ${sure}${world ? `; at ${world}` : ''}.`, experiment,
             }];
         }
         return [];
     };
-    /// Which is faster, by how much, how sure: the comparisons that the suites declare, those that are resolved first.
+    /// Which is faster, by how much and how certainly: the comparisons that the suites declare, resolved ones first.
     const answersOf = (report, experiments) => {
         const declared = experiments.flatMap(experiment => (experiment.comparisons || []).flatMap(comparison => comparison.columns
             .filter(column => column.overall.pairs > 1 && column.overall.ratio !== null)

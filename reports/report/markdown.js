@@ -1,9 +1,9 @@
-// Shows the documents of the source tree: headings, paragraphs, lists, tables, code and emphasis of Markdown.
+// Shows documents of the source tree in Markdown: headings, paragraphs, lists, tables, code and emphasis.
 const markdown = (() => {
     const { element, put } = pageKit;
     const idOf = (prefix, text) => `${prefix}-${text.toLowerCase().replace(/[^\w\- ]/g, '').replace(/ /g, '-')}`;
 
-    /// Links lead to headings of this document; those to other files of the source tree stay text.
+    /// Links to headings of this document are links. Those to other files of the source tree become text.
     const inline = (prefix, text) => {
         const pattern = /`([^`]+)`|\*\*([^*]+)\*\*|\*([^*\s][^*]*)\*|\[([^\]]+)\]\(([^)]*)\)|\\(.)/g;
         const parts = [];
@@ -33,7 +33,7 @@ const markdown = (() => {
     const isBlank = line => !line.trim();
     const starts = { table: /^\s*\|/, item: /^\s*[-*] /, code: /^ {4}\S/, heading: /^(#+) (.*)/, fence: /^```/ };
 
-    /// `prefix` stands before the ids of headings, so that several documents share a page.
+    /// `prefix` precedes the ids of headings, so that several documents can share a page.
     const show = (text, prefix) => {
         const lines = text.split('\n');
         const whole = element('div', { className: 'document' });

@@ -1,4 +1,4 @@
-// The table of all methods at all loads, to be sorted and filtered.
+// The table of all methods at all loads, which a reader can sort and filter.
 const overview = (() => {
     const { element, put, button } = pageKit;
     const { digits, shownOf, columnOf, variantOf, worldOf } = chartKit;
@@ -7,8 +7,8 @@ const overview = (() => {
     const firstRows = 12;
 
     const valuesOf = cell => Object.fromEntries(wanted.map(name => [name, chartData.valueOf(cell, name)?.[0] ?? null]));
-    /// A row for each cell of the experiments with any of these numbers, seeds taken together; without the null method,
-    /// which draws nothing.
+    /// A row for each configuration with any of these numbers, its seeds combined. The null method, which draws nothing, is
+    /// left out.
     const rowsOf = (report, experiments, titleOf) => experiments.flatMap(whole => {
         const experiment = shownOf(whole);
         return chartData.inOrder(experiment, experiment.cells.filter(cell => cell.method !== chartStyle.baseline && cell.runs.length)).map(cell => ({
@@ -20,7 +20,7 @@ const overview = (() => {
         const { name: text, unit } = columnOf(report, name);
         return text + (unitText(unit) ? ` [${unitText(unit)}]` : '');
     };
-    /// Texts with numbers in them sort by the numbers; what is missing comes last, whichever way.
+    /// Texts with numbers sort by the numbers. Missing values come last in either direction.
     const compared = (a, b, key, down) => {
         const [left, right] = [a, b].map(row => (key in row.values ? row.values[key] : key === 'experiment' ? row.experiment.id : row[key]));
         if (left === null || right === null) return (left === null) - (right === null);
@@ -31,13 +31,13 @@ const overview = (() => {
     const build = (report, experiments, titleOf, colourOf) => {
         const all = rowsOf(report, experiments, titleOf);
         const columns = wanted.filter(name => all.some(row => row.values[name] !== null));
-        // The rows that say most come first.
+        // The rows with the most values come first.
         const filled = row => columns.filter(name => row.values[name] !== null).length;
         all.sort((a, b) => filled(b) - filled(a));
         const heads = [['variant', 'method'], ['world', 'load'], ...columns.map(name => [name, headOf(report, name)]), ['experiment', 'experiment']];
         let [sort, down] = [pageState.get('sort').replace(/^-/, ''), pageState.get('sort').startsWith('-')];
         let whole = false, onPaper = false;
-        const filter = element('input', { type: 'search', placeholder: 'octree particles 2000 …', value: pageState.get('filter'), className: 'filter', ariaLabel: 'show rows with these words' });
+        const filter = element('input', { type: 'search', placeholder: 'octree particles 2000 …', value: pageState.get('filter'), className: 'filter', ariaLabel: 'show rows that contain these words' });
         const body = element('tbody'), headRow = element('tr'), note = element('p', { className: 'note' });
         const more = button('', () => { whole = !whole; show(); }, { className: 'more-rows' });
         const cellOf = (row, name) => {
@@ -60,7 +60,7 @@ const overview = (() => {
                 const isSorted = key === sort;
                 const head = element('th', { className: columns.includes(key) ? 'number' : '', ariaSort: isSorted ? (down ? 'descending' : 'ascending') : 'none' });
                 const mark = isSorted ? (down ? ' ↓' : ' ↑') : '';
-                // Browsers repeat a head on each sheet of paper only if there is nothing to press in it.
+                // Browsers repeat a table head on each printed page only if it contains no buttons.
                 put(head, onPaper ? text + mark : button(text + mark, () => {
                     down = isSorted ? !down : columnOf(report, key).better === 'high';
                     sort = key;
@@ -77,7 +77,7 @@ const overview = (() => {
             pageState.set('filter', filter.value);
             show();
         });
-        // On paper there is no button for the rest.
+        // Printed pages show all rows, because they have no button.
         let before = false;
         window.addEventListener('beforeprint', () => { before = whole; whole = onPaper = true; show(); });
         window.addEventListener('afterprint', () => { whole = before; onPaper = false; show(); });

@@ -1,7 +1,7 @@
 // Builds the page from the data in it.
 //
-// The data (bench/report/report_json.cpp): folder, written, version; problems; files beside the page; machines, methods,
-// facts and papers; runs, the ids that all others count; experiments with axes, cells, fits, published numbers, verdicts
+// The data (bench/report/report_json.cpp): folder, written, version; problems; files next to the page; machines, methods,
+// facts and papers; runs, the ids that the other parts index; experiments with axes, cells, fits, published numbers, verdicts
 // of their comparisons and the suite's file; claims; frames, the frame times of some runs; pictures by world and frame;
 // heat, the colours of difference maps; notDone; warnings.
 (() => {
@@ -25,7 +25,7 @@
     const shortTitle = experiment => experiment.title.split(':')[0] + quickMark(experiment);
     const titleOf = experiment => experiment.title + quickMark(experiment);
 
-    // What only the claims' controls need stands last, folded away.
+    // Suites that only the claims' controls need come last, folded.
     const controls = new Set(data.papers.flatMap(paper => paper.controls || []));
     const ofPapers = data.experiments.filter(item => item.suite && !controls.has(item.suite) && (!item.paper || !data.papers.length || data.papers.some(paper => paper.id === item.paper)));
     const isMain = experiment => !ofPapers.length || ofPapers.includes(experiment);
@@ -49,11 +49,11 @@
         ]);
         return element('details', {}, [
             element('summary', { textContent: `Fitted costs: ms = a + b·N^k (${plural(rows.length, 'curve')})` }),
-            table([['of'], ['cost'], ['N'], ['a [ms]', 'number'], ['b', 'number'], ['k', 'number'], ['loads, runs', 'number']], rows),
+            table([['configuration'], ['cost'], ['N'], ['a [ms]', 'number'], ['b', 'number'], ['k', 'number'], ['loads, runs', 'number']], rows),
         ]);
     };
     const suiteText = experiment => element('details', {}, [
-        element('summary', { textContent: `The suite's file, ${experiment.suite}.toml` }),
+        element('summary', { textContent: `Suite file ${experiment.suite}.toml` }),
         button('Download', () => download(`${experiment.suite}.toml`, experiment.toml, 'application/toml'), { className: 'save-toml' }),
         element('pre', { textContent: experiment.toml }),
     ]);
@@ -66,7 +66,7 @@
     const costControls = experiment => [
         ['column', 'Show', columnOptions(chartKit.quantitiesOf(report, experiment))],
         ['x', 'against', [...chartKit.loadsOf(experiment).filter(axis => axis.numeric).map(axis => [axis.name, axis.name]), ['bars', 'all settings (bars)']]],
-        ['xLog', 'across', scales], ['yLog', 'upwards', scales], ['world', 'World', []],
+        ['xLog', 'x axis', scales], ['yLog', 'y axis', scales], ['world', 'World', []],
     ];
     const addExperiment = (here, experiment, own) => {
         const card = element('article', { className: 'card', id: `experiment-${experiment.id}` }, [
@@ -77,7 +77,7 @@
         const cost = own.find(chart => chart.kind === 'cost');
         if (cost) {
             cards.add(card, cost, costControls(cost.experiment));
-            // Our own views of a paper's methods have nothing to be held against.
+            // Only charts named after a figure have a published chart to compare with.
             if (!experiment.published.length && experiment.title.startsWith('Figure'))
                 put(card, paragraph('Compare the shape only: the paper\'s text gives no numbers for this chart.', 'note shape-note'));
             const compared = comparisonList(experiment);
@@ -86,7 +86,7 @@
         }
         const stages = own.find(chart => chart.kind === 'stages');
         if (stages) put(card, element('h4', { textContent: 'Where the time goes' }));
-        else put(card, paragraph('Several runs at a time: no times were measured.', 'note'));
+        else put(card, paragraph('No times were measured, because several runs ran at once.', 'note'));
         if (stages) cards.add(card, stages, [['part', 'Show', [['own', 'the method\'s own stages'], ['frame', 'the whole frame']]], ['world', 'World', []]]);
         if (experiment.toml) put(card, suiteText(experiment));
     };
@@ -95,16 +95,16 @@
         const here = section('performance');
         const known = chartKit.list(report);
         const chartsOf = experiment => known.filter(chart => chart.experiment && chart.experiment.id === experiment.id);
-        if (!known.length) put(here, paragraph('No run measured anything.', 'muted'));
-        else put(here, paragraph('Each point or bar is the median of a cell\'s runs, or of its seeds. The line through it is the interval that contains the true median with at least 95\u00a0% probability, from ' +
-            'the order of 6 or more values; with fewer it spans the minimum and maximum. Points with the same load are drawn slightly apart. Runs alternate in random order, each in its own process.', 'muted'));
+        if (!known.length) put(here, paragraph('No run has measured values.', 'muted'));
+        else put(here, paragraph('Each point or bar is the median over the runs, or seeds, of a configuration. The line through it is the interval that contains the true median with at least 95\u00a0% probability, ' +
+            'from the order statistics of 6 or more values; with fewer values it spans the minimum and maximum. Points with the same load are drawn slightly apart. Runs alternate in random order, each in its own process.', 'muted'));
         for (const experiment of experiments) if (chartsOf(experiment).length) addExperiment(here, experiment, chartsOf(experiment));
         const frames = known.find(chart => chart.kind === 'frames');
         if (frames) {
-            const left = data.framesLeftOut ? ` ${plural(data.framesLeftOut, 'cell')} more have theirs in runs/*/frames.csv alone.` : '';
+            const left = data.framesLeftOut ? ` The frame times of ${plural(data.framesLeftOut, 'more configuration')} are only in runs/*/frames.csv.` : '';
             const card = element('article', { className: 'card', id: 'frame-times' }, [
                 element('h3', { textContent: 'Frame times of a run' }),
-                paragraph(`In their order, and how often each occurs; the first repetition of each cell.${left}`, 'muted'),
+                paragraph(`Frame times in order, and their distribution, for the first repetition of each configuration.${left}`, 'muted'),
             ]);
             put(here, card);
             const runs = data.frames.map(item => [item.run, `${shortTitle(experimentOf(item.experiment))}: ${item.label}`]);
@@ -123,18 +123,18 @@
         const own = chartKit.list(report).filter(chart => chart.kind === 'quality' && isMain(experimentOf(chart.experiment.id)));
         if (!own.length) {
             const judged = experiments.some(experiment => chartKit.metricsOf(report, experiment).length);
-            put(here, paragraph(judged ? 'No chart: no two settings whose pictures were judged differ in what they cost.'
-                : 'No run in this folder was compared with exact pictures. Use run --metrics, or metrics = true in a suite.', 'muted'));
+            put(here, paragraph(judged ? 'No chart: all settings whose pictures were compared have the same cost.'
+                : 'No run in this folder was compared with reference images. Use run --metrics, or metrics = true in a suite.', 'muted'));
             return;
         }
-        put(here, element('p', { className: 'muted' }, ['The error of a picture against its cost. ', element('a', { href: '#metrics', textContent: 'Image metrics' }), ' defines every metric.']));
+        put(here, element('p', { className: 'muted' }, ['Image error against cost. ', element('a', { href: '#metrics', textContent: 'Image metrics' }), ' defines every metric.']));
         for (const chart of own) {
             const card = element('article', { className: 'card' }, [element('h3', { textContent: titleOf(chart.experiment) })]);
             put(here, card);
             const costs = qualityChart.chargesOf(report, chart.experiment);
             cards.add(card, chart, [
                 ['metric', 'Metric', columnOptions(chartKit.metricsOf(report, chart.experiment))], ['against', 'against', columnOptions(costs)],
-                ['xLog', 'across', scales], ['yLog', 'upwards', scales],
+                ['xLog', 'x axis', scales], ['yLog', 'y axis', scales],
             ]);
         }
     };
@@ -145,24 +145,24 @@
             put(here, paragraph('No run in this folder saved pictures.', 'muted'));
             return;
         }
-        const linked = data.linkedPictures ? ` ${plural(data.linkedPictures, 'picture')} are too many for this file and are read from runs/ beside it.` : '';
-        put(here, paragraph(`Any two of a world at a frame; it opens on the picture with the largest error. Shown as JPEG where that is smaller; the numbers come from the EXR files in runs/.${linked}`, 'muted'));
+        const linked = data.linkedPictures ? ` ${plural(data.linkedPictures, 'picture')} did not fit in this file and will be read from runs/ next to it.` : '';
+        put(here, paragraph(`Compare any two pictures of the same world and frame. The viewer opens on the picture with the largest error. Pictures are shown as JPEG where that is smaller; the numbers come from the EXR files in runs/.${linked}`, 'muted'));
         put(here, element('article', { className: 'card' }, [pictureViewer.build(report, id => shortTitle(experimentOf(id)), id => isMain(experimentOf(id)))]));
     };
 
     const addClaims = () => {
         const here = section('claims');
-        if (!data.claims.length) put(here, paragraph('This folder contains no experiment of a paper, so there is no claim to test.', 'muted'));
+        if (!data.claims.length) put(here, paragraph('This folder contains no experiments from a paper, so there are no claims to test.', 'muted'));
         for (const paper of data.papers) {
             const claims = data.claims.filter(claim => claim.paper === paper.id);
             if (!claims.length) continue;
             put(here, element('article', { className: 'card' }, [
                 ...(data.papers.length > 1 ? [element('h3', { textContent: paper.title }), paragraph(pageHead.citationOf(paper), 'muted')] : []),
                 ...claims.map(claim => claimList.entry(report, claim, runLinks)),
-                paragraph('Confirmed: in every cell of the experiment the 95\u00a0% interval lies within the values for which the claim is true. Refuted: in every cell wholly outside. ' +
-                    'Depends: true in some cells, false in others. Unresolved: anything else, or fewer than 6 repetitions or 5 seeds. ' +
-                    'A control is other data for which the outcome is known; if the rule does not find it, the claim is untestable. ' +
-                    'In the small scales green is where the claim is true, the point what was measured, the line its interval.', 'note'),
+                paragraph('Confirmed: in every configuration the 95\u00a0% interval lies within the values for which the claim is true. Refuted: in every configuration it lies entirely outside. ' +
+                    'Depends: true in some configurations, false in others. Unresolved: anything else, or fewer than 6 repetitions or 5 seeds. ' +
+                    'A control is an input for which the verdict is known. If the rule gives another verdict for it, the claim is untestable. ' +
+                    'In the small scales, the green range is where the claim is true, the point is the measured value, and the line is its interval.', 'note'),
             ]));
         }
     };
@@ -187,28 +187,28 @@
         put(here, element('article', { className: 'card' }, [
             element('h3', { textContent: 'How it was measured' }),
             paragraph('A frame consists of input, vehicle, simulation, building, sorting, upload, the opaque scene and drawing, without vertical sync. Each run is a separate process. ' +
-                'Before it is timed, its picture is compared with that of a checked run, and unrecorded frames warm up. Stages are timed one by one and add up ' +
-                'to the frame. Pictures and metrics are made outside the timed frames.'),
+                'Before timing starts, the picture of the run is compared with that of a checked run, and warm-up frames are drawn but not recorded. Stages are timed one by one and add up ' +
+                'to the frame time. Pictures and metrics are produced outside the timed frames.'),
             element('p', {}, ['Everything on this page comes from ', ...[...data.files, ...(data.tablesOnly ? [] : ['runs/'])].flatMap((file, index) => [index ? ', ' : '', element('a', { href: data.root + file, textContent: file })]),
                 `${data.root ? '' : ' in the same folder'}; `, element('code', { textContent: 'dustbench report --text' }), ' prints the tables.']),
             element('details', {}, [element('summary', { textContent: 'Licence of the chart library' }), section('licence').content.cloneNode(true)]),
         ]));
         if (data.warnings.length)
             put(here, element('article', { className: 'card', id: 'warnings' }, [
-                element('h3', { textContent: 'Warnings of the runs' }),
-                paragraph('Claims leave out the runs that are invalid, and no others.', 'muted'),
-                table([['warning, in the words of the first run'], ['runs', 'number']], data.warnings.map(item => [item.warning, String(item.runs.length)])),
+                element('h3', { textContent: 'Run warnings' }),
+                paragraph('Claims leave out invalid runs only.', 'muted'),
+                table([['warning, with the numbers of the first run'], ['runs', 'number']], data.warnings.map(item => [item.warning, String(item.runs.length)])),
             ]));
         put(here, element('article', { className: 'card', id: 'not-done' }, [
             element('h3', { textContent: 'Skipped and failed' }),
             data.notDone.length ? table([['run', 'break'], ['status'], ['reason']], data.notDone.map(item => [item.run, item.status, item.reason]))
-                : paragraph('None: every run was done.', 'muted'),
+                : paragraph('None: every run was completed.', 'muted'),
         ]));
     };
 
     const addDocuments = () => {
         for (const name of ['metrics', 'schema']) {
-            const fold = element('details', { className: 'fold card' }, [element('summary', { textContent: name === 'metrics' ? 'What each metric is' : 'What each file and column holds' })]);
+            const fold = element('details', { className: 'fold card' }, [element('summary', { textContent: name === 'metrics' ? 'Definitions of all metrics' : 'Contents of all files and columns' })]);
             put(fold, markdown.show(section(`${name}-text`).content.textContent, name));
             put(section(name), fold);
         }
@@ -229,7 +229,7 @@
             put(section('problems'), element('aside', { className: 'problems' }, [
                 element('b', { textContent: 'Read this first' }),
                 element('ul', {}, data.problems.slice(0, 20).map(text => element('li', { textContent: text }))),
-                ...(data.problems.length > 20 ? [paragraph(`and ${data.problems.length - 20} more of the kind`, 'note')] : []),
+                ...(data.problems.length > 20 ? [paragraph(`and ${data.problems.length - 20} more`, 'note')] : []),
             ]));
         const methods = [...new Set(data.experiments.flatMap(item => item.cells.map(cell => cell.method)))].sort();
         put(section('methods'), ...methods.map(method => {
@@ -253,7 +253,7 @@
     addPictures();
     addMachine();
     addDocuments();
-    // Nothing can be unfolded on paper.
+    // A reader of a printed page cannot unfold anything.
     pageLook.follow(look, cards, showTheme, () => {
         const folded = [...document.querySelectorAll('.answers details:not([open])')];
         for (const part of folded) part.open = true;

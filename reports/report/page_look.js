@@ -1,10 +1,10 @@
-// The look that all charts of a page follow: its theme, what is hidden, the width of a screen or of paper.
+// The look that all charts of a page share: theme, hidden methods or machines, width of the screen or paper.
 const pageLook = (() => {
     const asked = window.matchMedia('(prefers-color-scheme: dark)');
     const make = hidden => ({ theme: pageState.get('theme') || (asked.matches ? 'dark' : 'light'), hidden: new Set(hidden) });
 
-    /// Keeps a page up with its reader and with paper. `paint` colours what is no chart; `beforePrint` may return what
-    /// undoes it. The promise ends when the first charts are drawn.
+    /// Adapts the page to changes of theme and width and to printing. `paint` colours everything except charts; `beforePrint`
+    /// may return a function that undoes it. The promise resolves when the first charts are drawn.
     const follow = (look, cards, paint, beforePrint = () => undefined) => {
         const setTheme = next => {
             look.theme = next;
@@ -16,7 +16,7 @@ const pageLook = (() => {
             pageState.set('theme', look.theme);
         });
         asked.addEventListener('change', () => setTheme(asked.matches ? 'dark' : 'light'));
-        // Ink on paper is dark, and charts are as wide as the paper: shrunk ones could not be read.
+        // Prints in the light theme, with charts as wide as the paper: shrunk ones would be unreadable.
         let before = null, undo;
         window.addEventListener('beforeprint', () => {
             before = look.theme;
@@ -42,7 +42,7 @@ const pageLook = (() => {
             document.documentElement.dataset.ready = String(Math.round(performance.now()));
         });
     };
-    /// Marks the page with its theme, and gives elements with `data-KIND` the colour of what that names.
+    /// Marks the page with its theme, and gives elements with `data-KIND` the colour of the method or machine it names.
     const painter = (look, kind, colourOf) => () => {
         document.documentElement.dataset.theme = look.theme;
         document.getElementById('theme').textContent = look.theme === 'dark' ? 'Light' : 'Dark';

@@ -1,5 +1,5 @@
-// What a reader has chosen, in the page's address, so that a link shows the same: `#claims?theme=dark&hidden=billboard&
-// carr2006-fig5.column=gpu_bytes`: an anchor, then the choices.
+// The reader's choices in the page's address, so that a link shows the same view: `#claims?theme=dark&hidden=billboard&
+// carr2006-fig5.column=gpu_bytes`, which is an anchor followed by the choices.
 const pageState = (() => {
     const parts = () => {
         const [anchor, query = ''] = window.location.hash.slice(1).split('?');
@@ -17,7 +17,7 @@ const pageState = (() => {
         else values.set(key, value);
         write(parts().anchor);
     };
-    /// A link within the page replaces the address; the choices stay.
+    /// A link within the page changes the anchor and keeps the choices.
     window.addEventListener('hashchange', () => {
         if (window.location.hash.includes('?')) window.location.reload();
         else write(parts().anchor);

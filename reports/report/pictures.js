@@ -1,4 +1,4 @@
-// The viewer of pictures: any two of a world at a frame, by a slider, in turns, or side by side.
+// The picture viewer: any two pictures of a world and frame, with a slider, alternating, or side by side.
 const pictureViewer = (() => {
     const { element: make } = pageKit;
     const { digits } = chartStyle;
@@ -10,19 +10,19 @@ const pictureViewer = (() => {
     /// `PSNR 44.4 dB, SSIM 0.998, FLIP 0.00332`
     const numbersOf = ({ numbers = {} }) => [['psnr_db', 'PSNR', ' dB'], ['ssim', 'SSIM', ''], ['flip', 'FLIP', '']]
         .filter(([key]) => numbers[key] !== undefined).map(([key, name, unit]) => `${name} ${digits(numbers[key])}${unit}`).join(', ');
-    /// The judged picture with the largest error; those in this file first.
+    /// The picture with the largest error, preferring those embedded in this file.
     const worstOf = sets => {
         const judged = sets.flatMap(set => set.pictures.filter(picture => !picture.difference && picture.numbers?.flip !== undefined).map(picture => ({ set, picture })));
         return judged.sort((a, b) => isEmbedded(b.picture) - isEmbedded(a.picture) || b.picture.numbers.flip - a.picture.numbers.flip)[0];
     };
-    /// The colours of a difference map, from no error to the largest that there is.
+    /// The colours of a difference map, from no error to the largest possible one.
     const colourBar = heat => make('div', { className: 'colour-bar', hidden: true }, [
-        make('span', { textContent: '0' }), make('i', { style: `background: linear-gradient(to right, ${heat.join(', ')})` }), make('span', { textContent: '1' }), make('span', { textContent: 'FLIP of a pixel' }),
+        make('span', { textContent: '0' }), make('i', { style: `background: linear-gradient(to right, ${heat.join(', ')})` }), make('span', { textContent: '1' }), make('span', { textContent: 'FLIP per pixel' }),
     ]);
 
-    /// `isMain`: whether an experiment is one that the viewer may open on.
+    /// `isMain`: whether the viewer may open on an experiment.
     const build = (report, titleOf, isMain = () => true) => {
-        // Worlds with an exact picture first: they say most.
+        // Worlds with ground truth first: they are the most informative.
         const isJudged = set => set.pictures.some(picture => picture.label === 'exact');
         const sets = [...report.data.pictures].sort((a, b) => isJudged(b) - isJudged(a));
         const worlds = [...new Map(sets.map(set => [`${set.experiment}\n${set.world}`, set])).values()]
@@ -48,9 +48,9 @@ const pictureViewer = (() => {
         const line = make('div', { className: 'divider' });
         const slider = make('input', { type: 'range', min: 0, max: 1000, value: 500, className: 'wipe', ariaLabel: 'edge of the left picture' });
         const stage = make('div', { className: 'picture-stage' }, [leftImage, rightImage, line]);
-        // Below, not in it: a dust cloud lies where the ground is.
+        // Below the picture, not in it, where they would cover the dust.
         const names = make('div', { className: 'picture-names' }, [leftName, rightName]);
-        // On paper nothing can be chosen, and the choice must be said.
+        // A printed page shows no controls, so the choice is written out.
         const said = make('p', { className: 'picture-world muted' });
         const bar = colourBar(report.data.heat || []);
         const missing = make('p', { className: 'note missing', hidden: true });
@@ -69,7 +69,7 @@ const pictureViewer = (() => {
             line.style.left = `${share}%`;
             line.hidden = slider.hidden = !sliding;
         };
-        /// Little pixels are magnified, but not to bricks; at native size not at all.
+        /// Small pictures are magnified up to twice, except at native size.
         const showSize = () => {
             const { width } = setNow();
             const widest = mode.value === 'native' && width ? width : width ? Math.min(1280, Math.max(2 * width, 480)) : 960;
@@ -120,7 +120,7 @@ const pictureViewer = (() => {
                 select.replaceChildren(...names.map((name, index) => new Option(name, index)));
                 select.value = Math.max(names.includes(before) ? names.indexOf(before) : otherwise, 0);
             };
-            // A method is held against its own finer setting where it has one, or else against the exact picture.
+            // A method is compared with its own finer setting if there is one, otherwise with the ground truth.
             const { pictures } = setNow();
             const judged = pictures.findIndex(picture => worst && picture.label === worst.picture.label && !picture.difference);
             const other = judged >= 0 ? judged : Math.max(pictures.findIndex(picture => !isReference(picture)), 0);
@@ -143,11 +143,11 @@ const pictureViewer = (() => {
         right.addEventListener('change', showPictures);
         mode.addEventListener('change', showMode);
         slider.addEventListener('input', showWipe);
-        // Beside this file there may be no runs/: then the picture is named, not shown broken.
+        // There may be no runs/ next to this file: then name the picture instead of showing a broken image.
         for (const image of [leftImage, rightImage])
             image.addEventListener('error', () => {
                 missing.hidden = false;
-                missing.textContent = `Not in this file, and not found beside it: ${image.getAttribute('src')}`;
+                missing.textContent = `Not embedded in this file, and not found next to it: ${image.getAttribute('src')}`;
             });
         if (worst) {
             world.value = worlds.findIndex(({ set }) => set.experiment === worst.set.experiment && set.world === worst.set.world);

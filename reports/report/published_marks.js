@@ -1,13 +1,12 @@
-// The numbers that a paper's text gives, for the chart of a quantity: hollow marks in the colour and with the mark of
-// their series, the measured curve scaled to the paper's first number, bands where the paper states no load. Pure, as
-// charts.js is.
+// Published numbers on the chart of a quantity: hollow marks in the colour and shape of their series, the measured curve
+// scaled to the paper's first number, and bands where the paper states no load. Pure, as charts.js is.
 const publishedMarks = (() => {
     const { digits, withUnit } = chartStyle;
     const { columnOf, distinct, shown } = chartData;
     const rate = 'fps_avg', time = 'frame_ms_median';
 
-    /// [min, max] of a number in the column of the chart, frames per second and ms turned into each other; null if it is
-    /// another quantity.
+    /// [min, max] of a number in the column of the chart, converted between frames per second and ms; null for another
+    /// quantity.
     const rangeIn = (item, column) => {
         if (item.column === column) return [item.min, item.max];
         const reciprocal = [item.column, column].every(name => name === rate || name === time);
@@ -25,7 +24,7 @@ const publishedMarks = (() => {
         };
     };
 
-    /// Between the measured points of a curve, as straight as they look on logarithmic scales; null outside.
+    /// Interpolates a measured curve, linearly on logarithmic scales; null outside its range.
     const valueAt = (curve, x) => {
         const after = curve.findIndex(point => point.x >= x);
         if (after < 0) return null;
@@ -35,7 +34,7 @@ const publishedMarks = (() => {
         if (a.x <= 0 || a.y <= 0 || b.y <= 0) return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
         return a.y * (b.y / a.y) ** (Math.log(x / a.x) / Math.log(b.x / a.x));
     };
-    /// The measured curve of a series over the paper's loads, times a factor that takes it through the paper's first.
+    /// The measured curve of a series over the paper's loads, scaled to pass through the paper's first number.
     const scaledCurve = (curve, marks) => {
         const sorted = [...marks].sort((a, b) => a.x - b.x);
         const first = sorted.find(mark => valueAt(curve, mark.x) > 0);
@@ -80,7 +79,7 @@ const publishedMarks = (() => {
             return { x: null, min, max, colour: colourOf(item), hardware: item.hardware, text: `published: ${rangeText(range, unit)}${item.column === column ? '' : ` (${rangeText([item.min, item.max], columnOf(report, item.column).unit)})`}`, tip: tipOf(report, item, column, range) };
         });
 
-    /// Names without the words that all begin with.
+    /// Names without their common first words.
     const shortNames = names => {
         const split = names.map(name => name.split(' '));
         let common = 0;
@@ -92,7 +91,7 @@ const publishedMarks = (() => {
         const names = shortNames(factors.map(({ series, panel }) => [panel, series].filter(Boolean).join(', ')));
         return factors.map(({ text }, index) => (factors.length > 1 ? `${names[index]} ${text}` : text)).join('; ');
     };
-    /// What stands below the chart.
+    /// The lines below the chart.
     const keyOf = ({ marks, factors }, bandList) => {
         const lines = distinct(marks.map(mark => mark.hardware)).map(hardware => `Hollow marks: published, ${hardware}.`);
         if (factors.length) lines.push(`Dashed: the measured curve, scaled to the paper's first number: ${factorList(factors)}.`);

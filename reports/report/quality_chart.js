@@ -4,13 +4,13 @@ const qualityChart = (() => {
     const { columnOf, axisTitle, shown, isWhole, valueOf, variantOf, worldOf, inOrder, distinct, metricsOf } = chartData;
     const { seriesStyles, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, legendLines, domainOf, logTicks, setTicks, spans, intervalText, missing, tableOf } = chartParts;
 
-    /// The points which every other one, by intervals that do not overlap, costs more or errs more.
+    /// The points to which every other point compares with a higher cost or a larger error, by intervals that do not overlap.
     const frontOf = (points, high) => {
         const errsMore = (other, point) => (high ? other.yHigh < point.yLow : other.yLow > point.yHigh);
         return points.filter(point => points.every(other => other === point || other.xLow > point.xHigh || errsMore(other, point)));
     };
 
-    /// The costs in which the judged settings differ: against any other one all points would lie above each other.
+    /// The costs in which the compared settings differ. Against any other cost, all points would lie on one vertical line.
     const chargesOf = (report, experiment) => {
         const judged = experiment.cells.filter(cell => metricsOf(report, { ...experiment, cells: [cell] }).length);
         return chartData.chargesOf(report, experiment).filter(name => distinct(judged.map(cell => valueOf(cell, name)?.[0]).filter(value => value !== undefined)).length > 1);
@@ -36,12 +36,12 @@ const qualityChart = (() => {
                     title: variantOf(report, experiment, cell),
                     [info.name]: withUnit(valueOf(cell, metric)[0], info.unit),
                     [cost.name]: withUnit(valueOf(cell, against)[0], cost.unit),
-                    'its interval': intervalText(cell, valueOf(cell, against), cost.unit),
+                    'cost interval': intervalText(cell, valueOf(cell, against), cost.unit),
                 },
             };
         });
         const panels = distinct(points.map(point => point.panel));
-        // One point alone leads nobody.
+        // A single point has nothing to lead.
         const compared = panels.map(panel => points.filter(point => point.panel === panel)).filter(here => here.length > 1);
         const front = compared.flatMap(here => frontOf(here, info.better === 'high'));
         const budgets = against === 'method_ms_median' && experiment.budgetMs ? [{ x: experiment.budgetMs, text: `budget ${withUnit(experiment.budgetMs, cost.unit, 6, true)}` }] : [];
@@ -68,10 +68,10 @@ const qualityChart = (() => {
         setScale(spec, 'colour', { domain: names, range: styles.map(style => style.colour) });
         setScale(spec, 'legendText', { domain: names, range: legendLines(names, chart.width) });
         setScale(spec, 'shape', { domain: names, range: styles.map(style => style.shape) });
-        const hint = info.better === 'high' ? 'Upwards' : 'Downwards';
-        const rings = front.length ? 'Ringed and joined: the Pareto front, where intervals separate: every other setting costs more or errs more.'
-            : compared.length ? 'No setting is ringed: the intervals of those that lead overlap.' : '';
-        return { spec, notes: [`${hint} and to the left is better.`, ...(rings ? [rings] : [])], table: tableOf(report, experiment, cells, [metric, against]), state: { metric, against, xLog, yLog } };
+        const hint = info.better === 'high' ? 'Higher' : 'Lower';
+        const rings = front.length ? 'Ringed and joined: the Pareto front. Compared with each of these, every other setting costs more or has a larger error, by intervals that do not overlap.'
+            : compared.length ? 'No setting is ringed, because the intervals of the leading settings overlap.' : '';
+        return { spec, notes: [`${hint} and further left is better.`, ...(rings ? [rings] : [])], table: tableOf(report, experiment, cells, [metric, against]), state: { metric, against, xLog, yLog } };
     };
     return { build, frontOf, chargesOf };
 })();

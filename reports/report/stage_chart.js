@@ -1,20 +1,20 @@
-// The chart of where the time of a frame goes: the method's own stages, or the whole frame. Pure, as charts.js is.
+// The chart of the stages of a frame: those of the method, or all of them. Pure, as charts.js is.
 const stageChart = (() => {
     const { stages, stageColours, themes, withUnit } = chartStyle;
     const { valueOf, distinct, loadsOf } = chartData;
     const { fresh, setSignals, setData, setScale, missing, rowsOf, widestText, tableOf } = chartParts;
-    /// Not the method's: the world and the harness share them.
+    /// Stages of the world and the harness, which all methods share.
     const shared = ['input', 'scene', 'wait'];
 
-    /// How the stages were timed, which decides what they can say.
+    /// How the stages were timed, which decides what their times mean.
     const timingOf = (report, experiment, cells) => {
         const kinds = distinct(cells.map(cell => cell.settings.sync || (experiment.common || {}).sync).filter(Boolean));
         const isSoftware = report.data.machines.some(machine => /llvmpipe|softpipe|swrast|swiftshader/i.test(machine.gl_renderer || ''));
         if (!kinds.length) return '';
-        if (kinds.includes('stage')) return 'Timed with --sync stage: each stage ends when its GPU work has ended.';
-        const waits = isSoftware ? 'the software renderer draws in part only then' : 'a GPU draws only then';
-        const timer = cells.some(cell => valueOf(cell, 'gpu_ms_median')) ? ' GPU timers measure the whole of it: GPU time in the tooltip.' : '';
-        return `Timed with --sync ${kinds.join(', ')}, wall clock on the CPU: queued work shows in the wait at the end of the frame (${waits}), not in its stage; --sync stage times it there.${timer}`;
+        if (kinds.includes('stage')) return 'Timed with --sync stage: each stage ends when its GPU work is finished.';
+        const waits = isSoftware ? 'the software renderer does part of the drawing only then' : 'a GPU draws only then';
+        const timer = cells.some(cell => valueOf(cell, 'gpu_ms_median')) ? ' GPU timers measure all GPU work; the tooltip shows the GPU time.' : '';
+        return `Timed with --sync ${kinds.join(', ')}, by the wall clock of the CPU. Queued work counts towards the wait at the end of the frame (${waits}), not towards its stage; --sync stage counts it towards its stage.${timer}`;
     };
 
     const build = (report, chart) => {
@@ -40,7 +40,7 @@ const stageChart = (() => {
                 pieces.push({
                     place: row.place, stage, order, ms: value[0],
                     tip: {
-                        title: row.text, [stage]: withUnit(value[0], 'ms'), frame: withUnit(frameMs, 'ms'), 'of the frame': withUnit(value[0] / frameMs, 'share'),
+                        title: row.text, [stage]: withUnit(value[0], 'ms'), frame: withUnit(frameMs, 'ms'), 'share of the frame': withUnit(value[0] / frameMs, 'share'),
                         ...(gpuMs ? { 'GPU time': withUnit(gpuMs[0], 'ms') } : {}),
                     },
                 });
@@ -49,7 +49,7 @@ const stageChart = (() => {
             row.end = Math.max(row.ms, row.own || 0);
             row.total = withUnit(row.ms, 'ms') + (row.own !== null ? `, method ${withUnit(row.own, 'ms')}` : '');
         }
-        if (!pieces.length) return { empty: 'The stages of these runs are not recorded.' };
+        if (!pieces.length) return { empty: 'These runs have no recorded stages.' };
         const spec = fresh(report.specifications.stages);
         spec.width = chart.width - 24;
         const lengths = rows.filter(row => !row.header);
@@ -66,8 +66,8 @@ const stageChart = (() => {
         setScale(spec, 'stage', { domain: order, range: order.map(stage => stageColours[theme][stages.indexOf(stage)]) });
         const here = rows.filter(row => row.cell).map(row => row.cell);
         const notes = [timingOf(report, experiment, here)];
-        if (own && lengths.some(row => row.own !== null)) notes.push('Line: method_ms_median, the frame less that of the null method in the same world, which has draw and wait of its own.');
-        else if (own) notes.push('The null method did not run beside these, so method_ms_median is not known.');
+        if (own && lengths.some(row => row.own !== null)) notes.push('Line: method_ms_median, the frame time minus that of the null method in the same world, which includes a draw and a wait as well.');
+        else if (own) notes.push('method_ms_median is unknown, because the null method was not run in these worlds.');
         return {
             spec, notes: notes.filter(Boolean), table: tableOf(report, experiment, here, ['frame_ms_median', 'method_ms_median', ...stages.map(stage => stage + '_ms_median')]),
             state: { worlds, world, part: own ? 'own' : 'frame' },

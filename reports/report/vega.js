@@ -1,4 +1,4 @@
-// Joins Debian's parts of Vega, each of which requires others by name, into one object.
+// Joins Debian's Vega modules, which require each other by name, into one object.
 const vega = (() => {
     const loaded = {};
     const load = name => {

@@ -1,12 +1,13 @@
-"""Makes the sample reports, a folder for each paper, and README's table and chart from the same runs, so that they agree.
+"""Makes the sample reports, a folder for each paper, and the README's table and charts from the same runs.
 
-    make_sample.py PROGRAM [PAPER …]    measures (half an hour), writes this folder and README.md; `make sample` calls it
-    make_sample.py --full PROGRAM PAPER …       measures the papers' full forms (up to two hours each), writes PAPER/full;
-                                                `make full PAPER=…` calls it
-    make_sample.py --charts PROGRAM [PAPER …]   draws the charts of the full forms from their tables, PAPER/SUITE.svg
-    make_sample.py --write      README.md again from this folder
-    make_sample.py --check      exit code 1 where README.md and this folder disagree, or PAPER/full/README.md leaves out a
-                                claim whose verdict differs from the quick form's
+    make_sample.py PROGRAM [PAPER …]            measures the quick runs (half an hour), writes this folder and README.md;
+                                                `make sample` calls it
+    make_sample.py --full PROGRAM PAPER …       measures the full runs of the papers (up to two hours each), writes
+                                                PAPER/full; `make full PAPER=…` calls it
+    make_sample.py --charts PROGRAM [PAPER …]   draws the charts of the full runs from their tables, PAPER/SUITE.svg
+    make_sample.py --write                      updates README.md from this folder
+    make_sample.py --check                      exits with 1 if README.md and this folder disagree, or if PAPER/full/README.md
+                                                does not mention a claim whose verdict differs from that of the quick run
 """
 
 import csv
@@ -23,14 +24,14 @@ ROOT = HERE.parents[1]
 README = ROOT / "README.md"
 OUT = ROOT / "reports" / "out" / "sample"
 PAPERS = sorted(folder.parent.name for folder in (ROOT / "data" / "papers").glob("*/paper.toml"))
-PAPER, SUITE = "carr2006", "carr2006-compare-quick"  # what README shows
+PAPER, SUITE = "carr2006", "carr2006-compare-quick"  # shown in README.md
 BEGIN, END = "<!-- sample: `make sample` writes what follows -->\n", "<!-- end of sample -->\n"
 MACHINE = ("cpu", "cores", "gl_renderer", "git_commit", "started_utc")
 TABLES = ("summary.csv", "claims.csv", "experiments.csv")
 
 
 def is_of_suite(row):
-    """Of the paper's suites only this one records 40 frames. The null method is beside, not of it."""
+    """True for runs of SUITE, the only suite of the paper that records 40 frames. The null method does not count."""
     return row["status"] == "done" and row["frames"] == "40" and row["method"] != "null_method"
 
 
@@ -41,13 +42,13 @@ def seconds_of(command):
 
 
 def provenance_of(out):
-    """Of the first run."""
+    """The provenance of the first run."""
     runs = (json.loads(run.read_text())["provenance"] for run in (out / "runs").glob("*/run.json"))
     return min(runs, key=lambda run: run["started_utc"])
 
 
 def keep(out, kept, files, durations):
-    """Copies the files that are there, and writes machine.csv; `durations` by column."""
+    """Copies those of the files that exist, and writes machine.csv with `durations` by column."""
     kept.mkdir(exist_ok=True)
     for name in files:
         if (out / name).exists():
@@ -63,7 +64,7 @@ def measure(program, paper):
     out, kept = OUT / paper, HERE / paper
     shutil.rmtree(out, ignore_errors=True)
     quick = [program, "reproduce", "--paper", paper, "--quick", "--out", out]
-    # The experiments are a part of both durations: they run again.
+    # Both durations include the experiments, which run again.
     durations = {"quick_seconds": seconds_of(quick), "controls_seconds": seconds_of(quick + ["--controls"])}
     subprocess.run([program, "report", out, "--pictures", "1"], check=True)
     keep(out, kept, ("index.html", *TABLES), durations)
@@ -74,20 +75,20 @@ def measure(program, paper):
 
 
 def measure_full(program, paper):
-    """Goes on where an earlier call was cut off. Only what was measured in one sitting has a duration."""
+    """Resumes an interrupted measurement. Only an uninterrupted one has a duration."""
     out = OUT / "full" / paper
     goes_on = any(out.glob("runs/*/run.json"))
     if goes_on:
-        print(f"make_sample.py: goes on with {out.relative_to(ROOT)}; remove it for a measurement in one sitting", flush=True)
+        print(f"make_sample.py: resuming {out.relative_to(ROOT)}; remove it to start again and record the duration", flush=True)
     seconds = seconds_of([program, "reproduce", "--paper", paper, "--full", "--controls", "--out", out])
     keep(out, HERE / paper / "full", TABLES, {"full_seconds": "" if goes_on else seconds})
     draw_full(program, paper)
     for claim in differing(paper):
-        print(f"{paper}: {claim} differs from the quick form: say why in reports/sample/{paper}/full/README.md")
+        print(f"{paper}: the verdict of {claim} differs from that of the quick run: explain it in reports/sample/{paper}/full/README.md")
 
 
 def draw_full(program, paper):
-    """The chart of each suite in its full form, from the tables alone. A suite that has changed since keeps its last one."""
+    """Draws the chart of each suite's full run, from the tables alone. A suite that has changed since keeps its last chart."""
     suites = {file.stem for file in (ROOT / "data" / "papers" / paper / "suites").glob("*.toml")}
     for old in (HERE / paper).glob("*.svg"):
         if old.stem not in suites:
@@ -111,7 +112,7 @@ def rows(name):
 
 
 def table():
-    """A row for each method and number of particles: medians over the repetitions, of the frame rate the range too."""
+    """A row for each method and number of particles: medians over the repetitions, and the range of the frame rate."""
     cells = {}
     runs = list(filter(is_of_suite, rows("summary.csv")))
     printed = [row for row in runs if row["p.mode"] == "paper"]
@@ -133,11 +134,12 @@ def block():
     repetitions = max(int(row["repetition"]) for row in filter(is_of_suite, rows("summary.csv")))
     return "\n".join([
         BEGIN.rstrip("\n"),
-        f"Dust behind the car at 320×240 pixels, medians of {repetitions} runs on {machine['cores']} cores of an",
-        f"{machine['cpu'].replace('(R)', '')} with {machine['gl_renderer']}.",
-        "The models are those that the paper printed (`mode=paper`). *Build* is the time to build the octree, *draw* the time to draw the dust; the rest is mostly the scene.", ""]
+        f"Dust behind the car at 320×240 pixels: medians of {repetitions} runs on {machine['cores']} cores of an {machine['cpu'].replace('(R)', '')} with "
+        f"{machine['gl_renderer']}.",
+        "The models are as printed in the paper (`mode=paper`). *Build* is the time to build the octree and *draw* the time to draw the dust; most of the",
+        "remaining time is spent on the scene.", ""]
         + table() + ["", f"![Frame rate of the three methods against the number of particles, with intervals](reports/sample/{PAPER}/{SUITE}.png)", "",
-                     "Figures 5 and 7 of the paper, with all loads and speeds of their suites, at 640×480 pixels, measured in our own\nmode (`mode=fixed`); the models as printed have so far been measured in the short form only. The paper's text gives no\nnumbers for the figures: compare the shapes.", "",
+                     "Figures 5 and 7 of the paper, with all loads and speeds of their suites, at 640×480 pixels. They were measured with our corrected models\n(`mode=fixed`); the models as printed have only been measured in quick runs so far. The paper states no numbers for these figures, so compare the\nshapes of the curves.", "",
                      f"![Frame rate of the billboard model against the number of particles, a curve for each speed](reports/sample/{PAPER}/{PAPER}-fig5.svg)", "",
                      f"![Frame rate of both octree models against the number of particles, a panel for each speed](reports/sample/{PAPER}/{PAPER}-fig7.svg)",
                      "", END.rstrip("\n"), ""])
@@ -159,13 +161,13 @@ def check():
     for number in range(max(len(found), len(wanted))):
         got, expected = (lines[number] if number < len(lines) else "nothing" for lines in (found, wanted))
         if got != expected:
-            sys.exit(f"README.md has '{got}', reports/sample says '{expected}'; run `make sample`, or make_sample.py --write")
+            sys.exit(f"README.md has '{got}', expected '{expected}' from reports/sample; run `make sample` or make_sample.py --write")
     for folder in sorted(HERE.glob("*/full")):
         readme = folder / "README.md"
         explained = readme.read_text(encoding="utf-8") if readme.exists() else ""
         for claim in differing(folder.parent.name):
             if f"**{claim}**" not in explained:
-                sys.exit(f"{readme.relative_to(ROOT)} does not explain **{claim}**, whose verdict differs from the quick form's")
+                sys.exit(f"{readme.relative_to(ROOT)} does not explain **{claim}**, whose verdict differs from that of the quick run")
 
 
 def main(arguments):

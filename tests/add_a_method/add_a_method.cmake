@@ -1,11 +1,11 @@
-# A method folder dropped into methods/ is listed and runs in a suite with no other edit, and the file of a particle
-# part is listed; deleted, they leave no trace. So does a method of ours, WITHOUT: all else builds, lists and runs.
+# A method folder added to methods/ is listed and runs in a suite without any other edit, and so is the file of a particle
+# part. Deleting them leaves no trace. The same holds for one of our methods, WITHOUT: everything else builds, lists and runs.
 #
-# The folder, the suite and the part are those of methods/README.md, so that the page cannot go wrong. All happens in a
-# copy of the tree below WORK, which is kept from one run to the next: only what changed is compiled again, the first
-# time from the compiler cache.
+# The folder, the suite and the part are the examples of methods/README.md, which are thereby tested. The test works in a copy
+# of the tree below WORK and keeps it for the next run, which compiles only changed files; the first run uses the compiler
+# cache.
 #
-#   cmake -DSOURCE=tree -DWORK=folder [-DWITHOUT=grid_fluid] [-DOPTIONS=cmake options] -P add_a_method.cmake
+#   cmake -DSOURCE=tree -DWORK=folder [-DWITHOUT=grid_fluid] [-DDUSTBENCH_WERROR=ON …] -P add_a_method.cmake
 cmake_minimum_required(VERSION 3.25)
 
 if(NOT WITHOUT)
@@ -15,8 +15,16 @@ if(NOT EXISTS ${SOURCE}/methods/${WITHOUT} OR WITHOUT MATCHES "^(contract|kit|nu
   message(FATAL_ERROR "WITHOUT: got '${WITHOUT}', expected a method's folder in methods/ other than null_method")
 endif()
 
+# The options of the build that runs this test: with others, the compiler cache would know none of the copy's files.
+set(OPTIONS "")
+foreach(OPTION DUSTBENCH_ARCH DUSTBENCH_WERROR CMAKE_CXX_COMPILER CMAKE_C_COMPILER)
+  if(DEFINED ${OPTION})
+    list(APPEND OPTIONS -D${OPTION}=${${OPTION}})
+  endif()
+endforeach()
+
 set(TREE ${WORK}/tree)
-set(BUILD ${TREE}/build/release) # as far below its tree as the real one, so that the compiler cache knows the files
+set(BUILD ${TREE}/build/release) # at the same depth as the real build folder, so that the compiler cache finds the files
 set(PROGRAM ${BUILD}/dustbench)
 set(ENV{CCACHE_BASEDIR} ${TREE})
 set(ENV{DUSTBENCH_DATA} "") # the copy's own data folder
@@ -30,7 +38,7 @@ function(must_run RESULT)
   set(${RESULT} "${OUT}" PARENT_SCOPE)
 endfunction()
 
-# The fenced block of methods/README.md that follows the line beginning with `FILE`, written to that file of the copy.
+# Writes the fenced block of methods/README.md that follows the line beginning with `FILE` to that file of the copy.
 function(write_from_page FILE)
   file(READ ${SOURCE}/methods/README.md PAGE)
   string(FIND "${PAGE}" "\n`${FILE}`" START)
@@ -67,7 +75,7 @@ function(build_copy)
   must_run(IGNORED ${CMAKE_COMMAND} --build ${BUILD} --target dustbench)
 endfunction()
 
-# A fresh copy of the sources, with their times of change; the build folder in it stays.
+# A fresh copy of the sources with their modification times. Keeps the build folder in it.
 set(PARTS CMakeLists.txt CMakePresets.json methods bench data reports tests)
 foreach(PART ${PARTS})
   file(REMOVE_RECURSE ${TREE}/${PART})
@@ -76,7 +84,7 @@ foreach(PART ${PARTS})
   file(COPY ${SOURCE}/${PART} DESTINATION ${TREE} REGEX "/reports/out(/|$)" EXCLUDE)
 endforeach()
 if(EXISTS ${TREE}/methods/dots)
-  message(FATAL_ERROR "methods/dots is there already: the example of methods/README.md must be a new name")
+  message(FATAL_ERROR "methods/dots already exists: the example of methods/README.md needs a new name")
 endif()
 
 write_from_page(methods/dots/dots.cpp)
@@ -101,7 +109,7 @@ list(LENGTH ROWS COUNT)
 list(GET ROWS -1 ROW)
 if(NOT COUNT EQUAL 3 OR NOT ROW MATCHES ",done,.*dots,")
   list(JOIN ROWS "\n" ROWS)
-  message(FATAL_ERROR "the suite should have two runs of 'dots', done:\n${ROWS}")
+  message(FATAL_ERROR "expected two finished runs of 'dots' in the suite, got:\n${ROWS}")
 endif()
 
 file(REMOVE_RECURSE ${TREE}/methods/dots ${TREE}/methods/${WITHOUT})
@@ -110,17 +118,17 @@ build_copy()
 ids_of(parts PARTS_LEFT)
 list(REMOVE_ITEM PARTS_WITH force/updraught)
 if(NOT "${PARTS_LEFT}" STREQUAL "${PARTS_WITH}")
-  message(FATAL_ERROR "with the file deleted the parts should be '${PARTS_WITH}', they are '${PARTS_LEFT}'")
+  message(FATAL_ERROR "after deleting the file, expected the parts '${PARTS_WITH}', got '${PARTS_LEFT}'")
 endif()
 ids_of(methods METHODS_LEFT)
 list(REMOVE_ITEM WITH dots ${WITHOUT})
 if(NOT "${METHODS_LEFT}" STREQUAL "${WITH}")
-  message(FATAL_ERROR "with the folders deleted the methods should be '${WITH}', they are '${METHODS_LEFT}'")
+  message(FATAL_ERROR "after deleting the folders, expected the methods '${WITH}', got '${METHODS_LEFT}'")
 endif()
 must_run(IGNORED ${PROGRAM} list)
 must_run(IGNORED ${PROGRAM} run --method null_method --frames 2 --size 64x48 -P preroll=0 --out ${WORK}/left)
 execute_process(COMMAND ${PROGRAM} run --method dots --frames 1 --out ${WORK}/gone
   RESULT_VARIABLE STATUS OUTPUT_QUIET ERROR_QUIET)
 if(NOT STATUS EQUAL 3)
-  message(FATAL_ERROR "a deleted method must be bad input (exit code 3), got ${STATUS}")
+  message(FATAL_ERROR "expected exit code 3 (bad input) for a deleted method, got ${STATUS}")
 endif()

@@ -1,4 +1,4 @@
-// The rules of the house, held against every file of the tree.
+// Checks the project's rules in every file of the tree.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ std::string textOf(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// Files below a folder of the tree, by path from the root, sorted.
+/// Files below a folder of the tree, as paths from the root, sorted.
 std::vector<std::string> filesBelow(const std::string& folder) {
     std::vector<std::string> paths;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
@@ -47,7 +47,7 @@ const std::vector<SourceFile>& sources() {
     return all;
 }
 
-/// Empty where no file breaks the rule, else one fault a line.
+/// The faults of all files, one per line; empty if there are none.
 std::string faultsOfAll(const std::function<Faults(const SourceFile&)>& rule) {
     std::string all;
     for (const SourceFile& file : sources()) {
@@ -75,11 +75,11 @@ TEST(Architecture, TheContractIsAShortReadAndNeedsNothingOfOurs) {
 }
 
 TEST(Architecture, EveryFolderOfTheKitHasTwoUsers) {
-    // The border for methods from outside.
+    // The interface for external methods.
     const std::set<std::string> exceptions{"library"};
     for (const auto& [folder, users] : kitUsers(sources())) {
         if (exceptions.contains(folder)) continue;
-        EXPECT_GE(users.size(), 2u) << "methods/kit/" << folder << ": what one method alone uses lives in that method";
+        EXPECT_GE(users.size(), 2u) << "methods/kit/" << folder << ": code of a single method belongs in the method";
     }
 }
 
@@ -104,7 +104,7 @@ TEST(Architecture, FilesOfAModuleShareNoNamesThatTheyKeepToThemselves) {
 TEST(Architecture, EveryCitationIsInTheBibliography) {
     const auto keys = bibliographyKeys(textOf(root / "data/references.bib"));
     EXPECT_FALSE(keys.empty());
-    // The checker's own tests cite what does not exist.
+    // The checker's own tests cite keys that do not exist.
     const auto rule = [&keys](const SourceFile& file) {
         return file.path.starts_with("tests/architecture/") ? Faults{} : citationFaults(file, keys);
     };

@@ -18,13 +18,13 @@ std::string firstWord(std::string_view text) {
     return {text.begin(), std::ranges::find_if_not(text, isWordCharacter)};
 }
 
-/// The rest after `start`, or nothing.
+/// The rest after `start`, or nothing if the text does not begin with it.
 std::optional<std::string_view> after(std::string_view line, std::string_view start) {
     if (!line.starts_with(start)) return std::nullopt;
     return line.substr(start.size());
 }
 
-/// `std::map<a, b> f(int)` without what is in angle brackets.
+/// `std::map<a, b> f(int)` without the text in angle brackets.
 std::string withoutArguments(std::string_view line) {
     std::string kept;
     int depth = 0;
@@ -58,7 +58,7 @@ std::string nameIn(std::string_view line) {
     return declaredName(line);
 }
 
-/// What is compiled together: the folder with its `parts/`, and whether it is module, tests or benchmarks.
+/// The unit that is compiled together: a folder with its `parts/`, and whether it is a module, tests or benchmarks.
 std::string moduleOf(const std::string& path) {
     const std::string folder = path.substr(0, std::min(path.find("/parts/"), path.rfind('/')));
     return folder + (path.ends_with("_test.cpp") ? " tests" : path.ends_with("_bench.cpp") ? " benchmarks" : "");
@@ -96,8 +96,8 @@ Faults sharedNameFaults(const std::vector<SourceFile>& files) {
         for (const OwnName& own : ownNames(file.text)) {
             const auto [first, isNew] = declaredBy.try_emplace({moduleOf(file.path), own.space, own.name}, &file);
             if (!isNew && first->second != &file)
-                faults.push_back(file.path + ":" + std::to_string(own.line) + ": '" + own.name + "' is a name of " +
-                                 first->second->path + " too, with which it may be compiled");
+                faults.push_back(file.path + ":" + std::to_string(own.line) + ": '" + own.name +
+                                 "' is also a name in " + first->second->path + ", with which it may be compiled");
         }
     }
     return faults;

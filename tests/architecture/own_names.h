@@ -1,7 +1,7 @@
-// The names that files keep to themselves, in unnamed namespaces: no two files of a module share one.
+// Checks that no two files of a module declare the same name in unnamed namespaces.
 //
 // The build compiles files of a module together (reports/decisions/0019-joined-files.md). A type of the same name is an
-// error there; a function may silently become an overload of the other file's.
+// error there; a function may silently become an overload of the other file's function.
 #pragma once
 
 #include "tests/architecture/source_rules.h"
@@ -14,11 +14,11 @@ struct OwnName {
     std::size_t line;   ///< from 1
 };
 
-/// What a file declares in unnamed namespaces, as laid out by `make format`; without members, tests and `using`s of
-/// other names.
+/// The declarations of a file in unnamed namespaces, as laid out by `make format`, except members, tests and `using`s
+/// of other names.
 [[nodiscard]] std::vector<OwnName> ownNames(std::string_view text);
 
-/// Names that two files of one folder (with `parts/` below it) declare so, tests and benchmarks apart from the module.
+/// Names that two files of a folder (with its `parts/`) declare in this way; module, tests and benchmarks separately.
 [[nodiscard]] Faults sharedNameFaults(const std::vector<SourceFile>& files);
 
 }  // namespace dustbench::architecture

@@ -1,4 +1,4 @@
-// The rule on names in unnamed namespaces, held against small files.
+// The rule on names in unnamed namespaces, applied to small files.
 #include "tests/architecture/own_names.h"
 
 #include <gmock/gmock.h>
@@ -48,7 +48,7 @@ TEST(OwnNames, MayNotBeThoseOfAnotherFileOfTheModule) {
     };
     EXPECT_THAT(
         faults("bench/run/one.cpp", "bench/run/two.cpp"),
-        ElementsAre("bench/run/two.cpp:4: 'f' is a name of bench/run/one.cpp too, with which it may be compiled"));
+        ElementsAre("bench/run/two.cpp:4: 'f' is also a name in bench/run/one.cpp, with which it may be compiled"));
     EXPECT_THAT(faults("methods/kit/a/one.cpp", "methods/kit/a/parts/force/two.cpp"), ElementsAre(HasSubstr("'f'")));
     EXPECT_THAT(faults("bench/run/one_test.cpp", "bench/run/two_test.cpp"), ElementsAre(HasSubstr("'f'")));
     EXPECT_THAT(faults("bench/run/one.cpp", "bench/run/two.cpp", "b"), IsEmpty());

@@ -35,11 +35,11 @@ std::string territoryOf(const std::string& path) {
     return path.substr(0, path.find('/', first + 1));
 }
 
-/// The rooms of bench/: each may use those before it.
+/// The modules of bench/: each may use those before it.
 constexpr std::array<std::string_view, 12> benchRooms{"scene",  "measure", "export", "reference", "results",   "suite",
                                                       "claims", "run",     "view",   "report",    "recommend", "cli"};
 
-/// Where a room of bench/ stands in that order; nothing for all other files.
+/// The position of a module of bench/ in that order; nothing for other files.
 std::optional<std::size_t> roomOf(const std::string& path) {
     if (!path.starts_with("bench/")) return std::nullopt;
     const std::string rest = path.substr(6);
@@ -79,13 +79,13 @@ Faults includeFaults(const SourceFile& file) {
         if (!std::regex_search(lines[i], match, include)) continue;
         const std::string target = match[1];
         if (target.find("..") != std::string::npos) {
-            faults.push_back(fault(file, i, "includes '" + target + "': name it from the root of the tree"));
+            faults.push_back(fault(file, i, "includes '" + target + "', expected a path from the root of the tree"));
         } else if (isContractTest(file) && target.starts_with("methods/kit/testing/")) {
             continue;
         } else if (!mayInclude(territoryOf(file.path), territoryOf(target))) {
             faults.push_back(fault(file, i, "must not include '" + target + "'"));
         } else if (roomOf(target) > roomOf(file.path) && roomOf(file.path)) {
-            faults.push_back(fault(file, i, "must not include '" + target + "', which is built on it"));
+            faults.push_back(fault(file, i, "must not include '" + target + "', which depends on it"));
         }
     }
     return faults;
@@ -101,7 +101,7 @@ Faults contractFaults(const SourceFile& file) {
         std::smatch match;
         if (std::regex_search(lines[i], match, include) && !std::regex_match(match[1].str(), allowed))
             faults.push_back(
-                fault(file, i, "the contract needs the standard library and GLM alone, not " + match.str(1)));
+                fault(file, i, "the contract may include only the standard library and GLM, not " + match.str(1)));
     }
     return faults;
 }
@@ -110,7 +110,7 @@ std::map<std::string, std::set<std::string>> kitUsers(const std::vector<SourceFi
     static const std::regex include(R"re(#\s*include\s*"methods/kit/(\w+)/)re");
     static const std::regex kitFolder(R"re(^methods/kit/(\w+)/)re");
     std::map<std::string, std::set<std::string>> users;
-    for (const SourceFile& file : files)  // a folder without a user is one with none
+    for (const SourceFile& file : files)  // folders without users also get an entry
         if (std::smatch own; std::regex_search(file.path, own, kitFolder)) users[own[1]];
     std::map<std::string, std::set<std::string>> folders;  // that include a folder, within the kit
     for (const SourceFile& file : files) {
@@ -157,7 +157,7 @@ Faults lengthFaults(const SourceFile& file) {
         std::ranges::any_of(lines, [](const std::string& line) { return std::regex_search(line, excuse); });
     if (excused) return {};
     return {
-        fault(file, maximumLines, std::to_string(lines.size()) + " lines: divide it, or say 'Over 400 lines: why'")};
+        fault(file, maximumLines, std::to_string(lines.size()) + " lines: split it, or state 'Over 400 lines: why'")};
 }
 
 Faults purposeFaults(const SourceFile& file) {
@@ -165,7 +165,7 @@ Faults purposeFaults(const SourceFile& file) {
     if (!isHeader(file)) return {};
     const auto lines = linesOf(file.text);
     if (!lines.empty() && std::regex_match(lines.front(), sentence)) return {};
-    return {fault(file, 0, "a header begins with one sentence on what it is for")};
+    return {fault(file, 0, "a header begins with one sentence on its purpose")};
 }
 
 Faults citationFaults(const SourceFile& file, const std::set<std::string>& keys) {

@@ -1,4 +1,4 @@
-// The rules that every source file of the project keeps, as functions of a file's path and text.
+// The rules for the project's source files, as functions of a file's path and text.
 #pragma once
 
 #include <map>
@@ -14,26 +14,26 @@ struct SourceFile {
     std::string text;
 };
 
-/// What breaks a rule, one `path:line: what is wrong` each.
+/// Violations of a rule, each as `path:line: fault`.
 using Faults = std::vector<std::string>;
 
-/// Includes point one way: methods/<id> → methods/kit → methods/contract ← bench, and within bench/ from later rooms to
-/// earlier ones; nothing is included by a path that climbs.
+/// Includes point one way: methods/<id> → methods/kit → methods/contract ← bench, and within bench/ from later modules
+/// to earlier ones. No include path contains `..`.
 [[nodiscard]] Faults includeFaults(const SourceFile& file);
 
-/// A header of methods/contract includes the standard library, GLM and its like alone.
+/// A header of methods/contract includes only the standard library, GLM and other headers of the contract.
 [[nodiscard]] Faults contractFaults(const SourceFile& file);
 
-/// Who uses each folder of methods/kit: methods and `bench`, directly or through other folders of the kit.
+/// The users of each folder of methods/kit: methods and `bench`, directly or through other folders of the kit.
 [[nodiscard]] std::map<std::string, std::set<std::string>> kitUsers(const std::vector<SourceFile>& files);
 
-/// OpenGL is called, and its types and headers are seen, in methods/kit/gpu alone.
+/// OpenGL calls, types and headers occur only in methods/kit/gpu.
 [[nodiscard]] Faults openGlFaults(const SourceFile& file);
 
 /// At most 400 lines, or a comment `Over 400 lines: why`.
 [[nodiscard]] Faults lengthFaults(const SourceFile& file);
 
-/// A header begins with a comment that says what it is for.
+/// A header begins with a comment on its purpose.
 [[nodiscard]] Faults purposeFaults(const SourceFile& file);
 
 /// `Source: Key, Eq. 1; Key2, ch. 2` in a comment (a second key ends in its year), and the `source = "Key, 1.2"` of a
@@ -43,10 +43,10 @@ using Faults = std::vector<std::string>;
 /// The keys of a BibTeX file: `@article{Key,`.
 [[nodiscard]] std::set<std::string> bibliographyKeys(std::string_view bibtex);
 
-/// The names and shell patterns (`scenes/*.toml`) that a Markdown page sets in backquotes.
+/// The names and shell patterns (`scenes/*.toml`) in backquotes on a Markdown page.
 [[nodiscard]] std::vector<std::string> quotedNames(std::string_view markdown);
 
-/// True where one of the names is the path, or a pattern of it in which '*' stays within one folder.
+/// True if one of the names equals the path or is a pattern that matches it; '*' does not match '/'.
 [[nodiscard]] bool isNamed(const std::string& path, const std::vector<std::string>& names);
 
 /// The text with comments and the contents of string and character literals blanked; lines stay where they are.

@@ -1,4 +1,4 @@
-// The checker itself: every rule finds a file that breaks it, and leaves one alone that does not.
+// Tests of the checker: each rule reports a file that violates it and accepts one that does not.
 #include "tests/architecture/source_rules.h"
 
 #include <gmock/gmock.h>

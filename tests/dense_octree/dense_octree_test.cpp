@@ -1,4 +1,4 @@
-// A dense grid and an octree of one level: the same voxels, the same picture, other bytes.
+// A dense grid and an octree of one level give the same voxels and the same picture, but use different memory.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -26,7 +26,7 @@ namespace {
 
 using Values = std::vector<std::pair<std::string, std::string>>;
 
-/// A trail behind a vehicle at the world's origin; some particles on the borders of cells or on top of each other.
+/// A trail behind a vehicle at the world's origin, with particles on the borders of cells and in the same place.
 class Trail : public TestMoment {
  public:
     Trail(std::size_t count, std::uint32_t seed) : TestMoment(count, 120, 90, {0, 6, 24}, {-6, -5, -24}) {
@@ -111,11 +111,11 @@ TEST(DenseOctree, OneGrowsWithTheCellsTheOtherWithTheVoxels) {
         EXPECT_EQ(dense[i], 8 * dense[i - 1]);
         EXPECT_LT(tree[i], 8 * tree[i - 1]);
     }
-    // At most one block of 64 bytes a level and one voxel of 8 bytes for each particle, and the root's block.
+    // At most one block of 64 bytes per level and one voxel of 8 bytes for each particle, plus the root's block.
     EXPECT_LE(tree.back(), 600 * (8 * 64 + 8) + 64);
 }
 
-/// The opposite of empty space: a particle in each of 16³ cells.
+/// No empty space: a particle in each of 16³ cells.
 TEST(DenseOctree, TheTreeNeedsMoreBytesThanTheGridWhereAllIsFull) {
     TestMoment full(4096, 40, 30, {0, 0, 100}, {0, 0, -1});
     for (std::size_t i = 0; i < 4096; ++i) {

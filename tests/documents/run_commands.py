@@ -1,18 +1,18 @@
-"""Runs the commands of a document, in a short form, in a folder of its own.
+"""Runs the commands of a document in a temporary folder, with options that shorten them.
 
     run_commands.py PROGRAM DOCUMENT
 
-Commands are the fenced blocks marked `sh`. A comment right before a block says more:
+Commands are the fenced blocks marked `sh`. Comments directly before a block change how it is run:
 
-    <!-- short: --frames 2 -->       options of each line of the block that calls dustbench, in place of those of the same name
-    <!-- exit: 3 -->                 what the block's last line ends with; several numbers: one of them
-    <!-- not run: the reason -->     the block is left out
+    <!-- short: --frames 2 -->       replaces these options in each line of the block that calls dustbench
+    <!-- exit: 3 -->                 the exit code of the block's last line; with several numbers, one of them
+    <!-- not run: the reason -->     skips the block
 
-Blocks marked `python` are run by Debian's Python as well, each behind all that came before it; if that Python has no pandas they are left
-out, but not where changes are judged (`CI` is set).
+Debian's Python runs the blocks marked `python`, each after all earlier ones. Without pandas they are skipped, except in CI (`CI` is set),
+where that is an error.
 
-A fenced block below a line that is `` `FILE` `` alone is written to that file first. The folder looks like the tree, with
-`build/release/dustbench` in its place; what the commands write under `out/` is removed afterwards.
+A fenced block below a line that contains only `` `FILE` `` is first written to that file. The folder looks like the tree, with
+`build/release/dustbench` in its place. It is removed afterwards, with everything that the commands have written.
 """
 
 import os
@@ -33,12 +33,12 @@ def said(comments, word):
 
 
 def commands(text):
-    """The lines of a block, continued ones as one."""
+    """The lines of a block, with continued lines joined."""
     return [line for line in text.replace("\\\n", " ").splitlines() if line.strip() and not line.startswith("#")]
 
 
 def shortened(line, short):
-    """The line with these options instead of its own; `-P name=value` is the option `-P name`."""
+    """The line with these options in place of its own; the name of `-P name=value` is `-P name`."""
     for option, value in re.findall(r"(--?[\w-]+)(?: (?!--)(\S+))?", short):
         if option == "-P":
             line = re.sub(rf" -P {re.escape(value.split('=')[0])}=\S+", "", line)
@@ -67,7 +67,7 @@ PYTHON = "/usr/bin/python3"
 def has_pandas():
     there = pathlib.Path(PYTHON).exists() and subprocess.run([PYTHON, "-c", "import pandas"], capture_output=True).returncode == 0
     if not there and os.environ.get("CI"):
-        sys.exit(f"{PYTHON} has no pandas (.ci/install pandas)")
+        sys.exit(f"{PYTHON} has no pandas; run .ci/install pandas")
     return there
 
 
@@ -90,7 +90,7 @@ def main(program, document):
                     called = subprocess.run([PYTHON, "-W", "error", "-c", session], cwd=folder, env=environment, capture_output=True, text=True)
                     count += 1
                     if called.returncode:
-                        sys.exit(f"{document}: Python ended with {called.returncode} at\n{block['text']}{called.stderr}")
+                        sys.exit(f"{document}: Python ended with exit code {called.returncode} at\n{block['text']}{called.stderr}")
             if block["kind"] != "sh":
                 continue
             lines = commands(block["text"])
@@ -102,11 +102,11 @@ def main(program, document):
                 wanted = expected if number + 1 == len(lines) else [0]
                 count += 1
                 if called.returncode not in wanted:
-                    sys.exit(f"{document}: `{command}` ended with {called.returncode}, expected {wanted}\n{called.stderr}{called.stdout[-2000:]}")
+                    sys.exit(f"{document}: `{command}` ended with exit code {called.returncode}, expected {wanted}\n{called.stderr}{called.stdout[-2000:]}")
     finally:
         shutil.rmtree(folder)
     if count == 0:
-        sys.exit(f"{document}: no command was run")
+        sys.exit(f"{document}: contains no command to run")
     print(f"{document}: {count} commands")
 
 

@@ -1,4 +1,5 @@
-// The truth as a method against the judge's exact picture: two programs for one formula that share no code.
+// The method exact_tiles against the ground truth of the metrics: two implementations of one formula without shared
+// code.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The experiment of births in worlds as the harness lends them.
+// The births experiment in worlds that the harness provides.
 #include <gtest/gtest.h>
 
 #include "bench/claims/lent_context.h"

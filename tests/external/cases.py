@@ -1,4 +1,4 @@
-"""The clouds that all programs draw, and the cameras that see them.
+"""The clouds that all programs draw, and their cameras.
 
 Metres, +Y up, right-handed. A puff is a Gaussian of extinction with the standard deviation s (half of its radius) and the
 optical depth `depth` through its centre.
@@ -31,7 +31,7 @@ class Puff:
         return self.depth / (math.sqrt(2 * math.pi) * self.deviation)
 
     def altered(self, width, mass):
-        """`width` times as wide, with `mass` times the mass (which is 2 pi s^2 times the depth)."""
+        """`width` times as wide, with `mass` times the mass (2 pi s^2 times the depth)."""
         return Puff(self.centre, self.radius * width, self.depth * mass / width ** 2)
 
 
@@ -49,19 +49,19 @@ class Case:
         return dataclasses.replace(self, puffs=tuple(puff.altered(width, mass) for puff in self.puffs))
 
     def widened(self, edge):
-        """As a grid with cells of that edge shows it: a cell's average adds edge^2/12 to the variance, linear
-        interpolation edge^2/6."""
+        """The puff as shown by a grid with cells of this edge: cell averages add edge^2/12 to the variance, linear
+        interpolation adds edge^2/6."""
         return dataclasses.replace(self, puffs=tuple(
             puff.altered(math.sqrt(1 + (edge / puff.deviation) ** 2 / 4), 1) for puff in self.puffs))
 
     def moved(self, by):
-        """All puffs moved by as many metres along each axis."""
+        """All puffs moved by this many metres along each axis."""
         return dataclasses.replace(self, puffs=tuple(
             dataclasses.replace(puff, centre=tuple(c + by for c in puff.centre)) for puff in self.puffs))
 
     @property
     def region(self):
-        """What the grid covers, up to 5 s from all centres: the minimum, then the maximum."""
+        """Bounds of the grid, 5 s around all centres: the minimum, then the maximum."""
         return ([min(p.centre[i] - 5 * p.deviation for p in self.puffs) for i in range(3)]
                 + [max(p.centre[i] + 5 * p.deviation for p in self.puffs) for i in range(3)])
 

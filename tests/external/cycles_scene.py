@@ -1,6 +1,6 @@
 """Draws a grid in Blender: `blender -b --factory-startup -P cycles_scene.py -- SETTINGS.json`, from with_cycles.py.
 
-Absorption and emission of the same strength give 1 - T at any step: white dust in a black world.
+Absorption and emission of equal strength give 1 - T at any step: white dust in a black world.
 """
 
 import json
@@ -32,7 +32,7 @@ def material(name):
 fog, nodes, links = material("fog")
 density, absorption, emission, both, output = (nodes.new("ShaderNode" + kind) for kind in (
     "VolumeInfo", "VolumeAbsorption", "Emission", "AddShader", "OutputMaterial"))
-absorption.inputs["Color"].default_value = (0, 0, 0, 1)  # all that is met is absorbed
+absorption.inputs["Color"].default_value = (0, 0, 0, 1)  # absorbs all light
 emission.inputs["Color"].default_value = (1, 1, 1, 1)
 links.new(density.outputs["Density"], absorption.inputs["Density"])
 links.new(density.outputs["Density"], emission.inputs["Strength"])

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Our exact pictures against those of programs that others wrote: a row for each program and case.
+"""Compares our ground truth with pictures of other programs: a row for each program and case.
 
     external.py PROGRAM [--with povray,vdb_render,cycles] [--cases one_puff,…] [--width F] [--mass F] [--write figures.csv]
 
-PROGRAM is dustbench. `--width` and `--mass` plant a fault: our puffs are as many times as wide or heavy as theirs. Ends with 1 if a
-figure misses its bar, with 77 if none of the other programs is here.
+PROGRAM is dustbench. `--width` and `--mass` plant a fault: our puffs become F times as wide or as heavy as theirs. Exit code: 1 if a
+figure misses its limit, 77 if none of the other programs is installed.
 """
 
 import argparse
@@ -28,7 +28,7 @@ from cases import CASES
 
 OTHERS = {other.NAME: other for other in (with_povray, with_vdb_render, with_cycles)}
 PSNR_BAR_DB = 50.0
-DEPTH_BAR = 0.004  # 1 % of mass shows at most 0.0037 of alpha, which PSNR alone lets pass
+DEPTH_BAR = 0.004  # 1 % of mass changes alpha by at most 0.0037, which PSNR does not detect
 COLUMNS = ("program version case settings cell_m psnr_mask_db error_max depth_ratio tiles_psnr_mask_db explained_psnr_mask_db "
            "explained_error_max explained_depth_ratio holds date").split()
 
@@ -37,7 +37,7 @@ def figures(theirs, ours):
     """PSNR of alpha within the mask, the maximum error there, and the ratio of the sums of the optical depths."""
     mask = (theirs > 1 / 255) | (ours > 1 / 255)
     error = (theirs - ours)[mask]
-    middle = (ours > 0.02) & (ours < 0.9)  # thinner is rounding, deeper the logarithm of rounding
+    middle = (ours > 0.02) & (ours < 0.9)  # below, rounding dominates; above, the logarithm of rounding
     depths = [numpy.log1p(-numpy.clip(alpha[middle], 0, 0.9999)).sum() for alpha in (theirs, ours)]
     return -10 * numpy.log10(max(1e-20, (error ** 2).mean())), numpy.abs(error).max(), depths[0] / depths[1]
 
@@ -96,7 +96,7 @@ def main():
     missed = any(row["holds"] == "no" for row in rows)
     if given.write and rows:
         done = {(row["program"], row["case"]) for row in rows}
-        if os.path.exists(given.write):  # rows of programs that are elsewhere stay
+        if os.path.exists(given.write):  # keeps rows of programs that are not installed
             with open(given.write, newline="") as file:
                 rows = [row for row in csv.DictReader(file) if (row["program"], row["case"]) not in done] + rows
         with open(given.write, "w", newline="") as file:

@@ -7,11 +7,11 @@ import zlib
 import numpy
 
 SAMPLES = {1: numpy.dtype("<f2"), 2: numpy.dtype("<f4")}
-LINES = {0: 1, 2: 1, 3: 16}  # of a block, by compression: none, ZIPS, ZIP
+LINES = {0: 1, 2: 1, 3: 16}  # lines per block, by compression: none, ZIPS, ZIP
 
 
 def unpacked(data, size):
-    """What ZIP of OpenEXR means: differences of bytes, the first half of them at even places."""
+    """Undoes the filter of OpenEXR's ZIP: byte differences, with the first half at even positions."""
     if len(data) == size:
         return data
     sums = numpy.frombuffer(zlib.decompress(data), numpy.uint8).astype(numpy.int64)
@@ -65,7 +65,7 @@ def read_ppm(path):
     """The first channel of a 16-bit PPM, 0..1."""
     with open(path, "rb") as file:
         content = file.read()
-    words, at = [], 0  # the header: a word each, or lines of comment
+    words, at = [], 0  # the header: words, or comment lines
     while len(words) < 4:
         found = re.compile(rb"\s*(?:#[^\n]*\n|([^\s#]+)\s)").match(content, at)
         words += [found.group(1)] if found.group(1) else []

@@ -1,4 +1,4 @@
-"""What dustbench says of a case: its exact pictures, and its grid as an OpenVDB file."""
+"""The results of dustbench for a case: the ground truth, and the grid as an OpenVDB file."""
 
 import csv
 import glob
@@ -14,7 +14,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 
 
 def inputs(case, folder):
-    """Cloud and camera as files; the options that name them."""
+    """Writes cloud and camera to files; returns the options that name them."""
     dust, path = os.path.join(folder, "cloud.csv"), os.path.join(folder, "camera.csv")
     with open(dust, "w", newline="") as file:
         table = csv.writer(file)
@@ -43,7 +43,7 @@ def fresh(folder):
 
 
 def alphas(program, case, folder):
-    """Alpha as the judge computes it, and as the method exact_tiles draws it: white dust in a black scene."""
+    """Alpha of the reference image and of the method exact_tiles: white dust in a black scene."""
     options = inputs(case, fresh(folder))
     call([program, "run", "--method", "exact_tiles", "--frames", "1", "--images", "1", "--metrics", *options])
     images = glob.glob(os.path.join(folder, "out", "runs", "*", "images"))[0]
@@ -53,7 +53,7 @@ def alphas(program, case, folder):
 def grid(program, case, folder, above_ground=False):
     """The cloud's cell averages in single precision: the file, and the edge of a cell in metres.
 
-    `above_ground`: the centres of the lowest cells lie on y = 0; there a march through stored cells ends.
+    `above_ground`: the centres of the lowest cells are at y = 0, where a march through stored cells ends.
     """
     options = inputs(case, fresh(folder))
     box = case.region

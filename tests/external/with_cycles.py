@@ -17,7 +17,7 @@ def version():
 
 
 def draw(program, case, folder, samples=16, step=0.5):
-    """Alpha, the edge of a cell in metres, and the settings in words."""
+    """Alpha, the edge of a cell in metres, and the settings as text."""
     file, edge = grid(program, case, folder)
     picture, settings = os.path.join(folder, "picture.exr"), os.path.join(folder, "settings.json")
     with open(settings, "w") as out:
@@ -29,5 +29,5 @@ def draw(program, case, folder, samples=16, step=0.5):
 
 
 def explained(case, edge):
-    """A grid widens puffs; Cycles takes a voxel's corner for its centre, so that all lies half a voxel further on each axis."""
+    """A grid widens puffs. Cycles treats a voxel's corner as its centre, which shifts everything by half a voxel along each axis."""
     return case.widened(edge).moved(edge / 2)

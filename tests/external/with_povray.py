@@ -1,6 +1,6 @@
-"""POV-Ray: media whose density is the formula itself, without a grid.
+"""POV-Ray: a medium whose density is the formula itself, without a grid.
 
-One box with a medium; white background and white ground without shading, so that a pixel is the transmittance.
+One box with a medium, over a white background and unshaded white ground, so that pixels are transmittances.
 """
 
 import os
@@ -20,7 +20,7 @@ background {{ rgb 1 }}
 camera {{ perspective location {eye} direction {ahead} right {right} up {up} }}
 """
 PLANE = "plane { y, 0 pigment { rgb 1 } finish { ambient 0 diffuse 0 emission 1 } }\n"
-# A pattern's values are taken within 0 to 1: the extinction is divided by the sum of all peaks, and half of that is the pattern.
+# Pattern values must be within 0 to 1: the pattern is half of the extinction divided by the sum of all peaks.
 CLOUD = """box {{ {minimum}, {maximum} hollow pigment {{ rgbt 1 }} finish {{ ambient 0 diffuse 0 }} no_shadow
   interior {{ media {{ absorption {scale:.12g} method 3 intervals 1 samples {samples}, {samples} aa_level 3 aa_threshold 1e-5 jitter 0
     density {{ function {{ {formula} }} color_map {{ [0 rgb 0] [1 rgb 1] }} }} }} }} }}
@@ -34,7 +34,7 @@ def version():
 
 
 def draw(program, case, folder):
-    """Alpha, no cells, and the settings in words."""
+    """Alpha, no cells, and the settings as text."""
     fresh(folder)
     scene, picture = os.path.join(folder, "scene.pov"), os.path.join(folder, "picture.ppm")
 
@@ -56,5 +56,5 @@ def draw(program, case, folder):
 
 
 def explained(case, edge):
-    """With n samples, method 3 makes a medium that is 0 at both ends of a ray (n + 4)/(n + 2) times as deep."""
+    """With n samples, method 3 multiplies the depth of a medium that is 0 at both ends of a ray by (n + 4)/(n + 2)."""
     return case.altered(1, (SAMPLES + 4) / (SAMPLES + 2))

@@ -1,7 +1,7 @@
 """OpenVDB's vdb_render: a march through the grid that dustbench exports.
 
 Its alpha is 1 - T, T the product of exp(-k d h) over the samples d of a ray, h voxels apart; k = scatter + absorb. With k the edge
-of a voxel in metres, k h d is the optical depth of a step. It knows no ground: the grid ends there.
+of a voxel in metres, k h d is the optical depth of a step. It does not support a ground: the grid ends there.
 """
 
 import os
@@ -20,12 +20,12 @@ def version():
 
 
 def draw(program, case, folder):
-    """Alpha, the edge of a cell in metres, and the settings in words."""
-    # A sum at the steps is nearly exact where the ray begins and ends outside; where it is cut, half a step's depth is missing.
+    """Alpha, the edge of a cell in metres, and the settings as text."""
+    # The sum over the steps is nearly exact if the ray begins and ends outside; if it is cut, half a step's depth is missing.
     step = 0.1 if case.ground or case.name == "inside" else 0.5
     file, edge = grid(program, case, folder, above_ground=case.ground)
     picture = os.path.join(folder, "picture.exr")
-    wide = 2 * case.slopes[0] * 50  # of the aperture, with a focal length of 50
+    wide = 2 * case.slopes[0] * 50  # width of the aperture, with a focal length of 50
 
     def triple(values):
         return ",".join(f"{value:.9g}" for value in values)

@@ -1,11 +1,11 @@
-// Preloaded into a program and what it starts: one call of a kind fails, or all from one on.
+// Preloaded into a program and its children: makes one system call of a kind fail, or all from a given one on.
 //
 //   DUSTBENCH_FAULT=KIND:N:ERRNO     kinds: write fsync open rename mkdir fork alloc unsynced; N+ is the N-th call and all after it
-//   DUSTBENCH_FAULT_BELOW=FOLDER     only files below it count (not for fork and alloc)
-//   DUSTBENCH_FAULT_COUNT=FILE       eight bytes that all processes share: the calls so far
+//   DUSTBENCH_FAULT_BELOW=FOLDER     only files below it count (except for fork and alloc)
+//   DUSTBENCH_FAULT_COUNT=FILE       eight bytes that all processes share: the number of calls so far
 //
-// With N = 0 nothing fails and the calls are counted. `unsynced` is a rename of a file, or of a folder with one, that was not put on
-// disk (fsync) by the same process since it was last written: after a loss of power it could be empty.
+// With N = 0 nothing fails and calls are only counted. `unsynced` is the rename of a file, or of a folder with a file, that the same
+// process has not synchronised (fsync) since it was last written: after a loss of power it could be empty.
 #define _GNU_SOURCE  // NOLINT(bugprone-reserved-identifier): the name is glibc's
 #include <dlfcn.h>
 #include <errno.h>
@@ -109,7 +109,7 @@ ssize_t writev(int handle, const struct iovec* parts, int count) {
 
 int rename(const char* from, const char* to) {
     if (isBelow(to) && fails("rename")) return -1;
-    // What has no name of its own yet is put on disk with its folder.
+    // Files without a final name are synchronised with their folder.
     if (isBelow(to) && !strstr(to, "/.unfinished-") && nftw(from, isUnsynced, 16, FTW_PHYS) == 1 && fails("unsynced")) return -1;
     return REAL(rename)(from, to);
 }
@@ -146,7 +146,7 @@ pid_t fork(void) {
     return REAL(fork)();
 }
 
-// A library that is being loaded makes its static objects; nobody can catch what that throws.
+// While a library is loaded, it constructs static objects; exceptions from these cannot be caught.
 static __thread int loading;
 
 void* dlopen(const char* path, int flags) {
@@ -158,7 +158,7 @@ void* dlopen(const char* path, int flags) {
 
 extern void* __libc_malloc(size_t);  // NOLINT(bugprone-reserved-identifier): glibc's own
 
-// Small ones are the business of every library.
+// Small allocations occur in every library.
 void* malloc(size_t bytes) {
     if (bytes >= 50000 && !loading && fails("alloc")) return NULL;
     return __libc_malloc(bytes);

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""Calls of the system that fail, one at a time: nothing is lost, nothing doubled, nothing half-written, never a wrong number.
+"""System calls that fail, one at a time: nothing is lost, duplicated or half-written, and no number is wrong.
 
     faults_test.py PROGRAM LIBRARY WORK [--every N]
 
-LIBRARY is failing_calls.c, which is preloaded. A small suite is run once for each call of a kind that it makes (for every N-th of
-them), and again over its own results, with that call failing. It must end with 0 or 2, and what it leaves must be whole; the same
-command without the fault must then finish. Every N-th call differs from run to run of this test (its seed is printed), so that in
-time all of them are met.
+LIBRARY is the compiled failing_calls.c, which is preloaded. A small suite is run once for each call of a kind (or every N-th) with
+that call failing, and again over its own results. It must exit with 0 or 2 and leave complete results; the same command without the
+fault must then finish. The choice of every N-th call depends on the seed, which is printed, so that repeated runs cover all calls.
 """
 
 import argparse
@@ -51,7 +50,7 @@ class Place:
             file.write(SUITE)
 
     def call(self, arguments, fault=None):
-        """The program's exit code and stderr; `fault` is (kind, n, number of the error), n with + for all that follow."""
+        """The program's exit code and stderr; `fault` is (kind, n, error number), n with + for all later calls."""
         environment = dict(os.environ)
         if fault:
             with open(self.count, "wb") as file:
@@ -79,7 +78,7 @@ def sum_of(file):
 
 
 def faults_of(out, expected=None):
-    """What is wrong with the results that a reader sees; `expected` of them must be there."""
+    """Faults in the results that a reader sees; there must be `expected` of them."""
     found = []
     runs = os.path.join(out, "runs")
     names = [name for name in (os.listdir(runs) if os.path.isdir(runs) else []) if not name.startswith(".")]
@@ -96,7 +95,7 @@ def faults_of(out, expected=None):
         for output in record["outputs"] or []:
             file = os.path.join(place, output["file"])
             if not os.path.isfile(file) or sum_of(file) != output["sha256"]:
-                found.append(f"{name}: {output['file']} is not what was written")
+                found.append(f"{name}: {output['file']} was altered")
     if expected is not None:
         if len(names) != expected:
             found.append(f"{len(names)} runs, expected {expected}")
@@ -120,15 +119,15 @@ def sums_of_runs(out):
 
 
 def said_wrong(code, said, what):
-    """What the program should not have said."""
+    """Faults in the exit code and the messages."""
     lines = [line for line in said.splitlines() if line.startswith("dustbench:")]
     found = []
     if code not in (0, 2):
-        found.append(f"ended with {code}, allowed: 0 or 2")
+        found.append(f"exit code {code}, allowed: 0 or 2")
     if code == 2 and not any(line.startswith("dustbench: aborted: ") for line in lines):
-        found.append("does not say why it was aborted")
+        found.append("does not report why it was aborted")
     if len(lines) > 1 or any("internal error" in line for line in lines):
-        found.append(f"said {lines}")
+        found.append(f"printed {lines}")
     return [f"{what}: {each}; {said[-300:]!r}" for each in found]
 
 
@@ -137,7 +136,7 @@ def chosen(total, every, chance):
 
 
 def try_kind(place, kind, every, chance):
-    """Each chosen call fails, of a fresh suite and of one that finds its results."""
+    """Lets each chosen call fail, in a fresh suite and in one with existing results."""
     tried = 0
     for fresh in (True, False):
         place.clear()
@@ -158,10 +157,10 @@ def try_kind(place, kind, every, chance):
                 failures.extend(f"{what}: {each}" for each in faults_of(place.out))
                 code, said = place.measure()
                 if code:
-                    failures.append(f"{what}: the same command then ends with {code}: {said[-300:]!r}")
+                    failures.append(f"{what}: the same command then exits with {code}: {said[-300:]!r}")
                 failures.extend(f"{what}, then: {each}" for each in faults_of(place.out, 2))
                 if not fresh and sums_of_runs(place.out) != before:
-                    failures.append(f"{what}: was measured again, or is lost")
+                    failures.append(f"{what}: was measured again or lost")
                     place.clear()
                     place.measure()
                     before = sums_of_runs(place.out)
@@ -170,7 +169,7 @@ def try_kind(place, kind, every, chance):
 
 
 def try_reading(place, every, chance):
-    """Memory that runs out while results are read: `report` and `merge` give up, and write nothing wrong."""
+    """Memory runs out while results are read: `report` and `merge` abort and write nothing wrong."""
     place.clear()
     place.measure()
     tried = 0
@@ -188,7 +187,7 @@ def try_reading(place, every, chance):
 
 
 def try_order(place):
-    """Nothing gets its own name before it is on disk, in a fresh suite and in its report."""
+    """Nothing gets its final name before it is on disk, in a fresh suite and in its report."""
     place.clear()
     merged = os.path.join(place.work, "merged")
     shutil.rmtree(merged, ignore_errors=True)
@@ -196,7 +195,7 @@ def try_order(place):
         code, said = place.call(arguments, ("unsynced", 0, 0))
         failures.extend(said_wrong(code, said, arguments[0]))
         if place.calls():
-            failures.append(f"{arguments[0]}: {place.calls()} files or folders got their name before they were on disk")
+            failures.append(f"{arguments[0]}: {place.calls()} files or folders got their final name before they were on disk")
 
 
 def main():

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Kills at random moments: what was finished stays, and nothing is doubled or torn.
+"""Kills at random moments: finished results stay, and nothing is duplicated or half-written.
 
     kills.py PROGRAM WORK [--kills 1000]
 
-Commands that write results, merge, report, export and bundle are started over one folder and killed after a random time, alone or with
-their children. After each kill every result that a reader sees must be whole, and none that was there may be missing or changed. At
-the end all commands run to their end.
+Commands that write results, merge, report, export and bundle are started in one folder and killed after a random time, alone or with
+their children. After each kill, every result that a reader sees must be complete, and earlier results must not be missing or changed.
+At the end, all commands must finish.
 """
 
 import argparse
@@ -51,7 +51,7 @@ def finished(folder):
 
 
 def volumes_of(folder):
-    """A file under its own name is whole: OpenVDB's and VTK's end as they should."""
+    """A file under its final name is complete: OpenVDB and VTK files have their proper end."""
     found = []
     for name in os.listdir(folder) if os.path.isdir(folder) else []:
         path = os.path.join(folder, name)
@@ -60,14 +60,14 @@ def volumes_of(folder):
         if name.endswith((".vti", ".vtp", ".pvd", ".vtm")):
             with open(path, "rb") as file:
                 if not file.read().rstrip().endswith(b"</VTKFile>"):
-                    found.append(f"{name} is torn")
+                    found.append(f"{name} is incomplete")
         elif os.path.getsize(path) == 0:
             found.append(f"{name} is empty")
     return found
 
 
 def bundle_of(work):
-    """A bundle under its own name has every file that it lists, unchanged. It goes, so that the next one can be packed."""
+    """A bundle under its final name contains every file that it lists, unchanged. It is removed, so that the next one can be packed."""
     bundle = os.path.join(work, "bundle.tar")
     if not os.path.exists(bundle):
         return []
@@ -77,11 +77,11 @@ def bundle_of(work):
         sums = {name: hashlib.sha256(text).hexdigest() for name, text in texts.items()}
         lines = texts["SHA256SUMS"].decode().splitlines()
         listed = dict(reversed(line.split("  ", 1)) for line in lines)
-        found = [f"the bundle's {name} is not what it lists" for name in listed if sums.get(name) != listed[name]]
+        found = [f"{name} of the bundle does not match its checksum" for name in listed if sums.get(name) != listed[name]]
         if not listed or len(sums) != len(listed) + 1:
-            found.append(f"the bundle has {len(sums)} files and lists {len(listed)}")
+            found.append(f"the bundle contains {len(sums)} files and lists {len(listed)}")
     except (tarfile.TarError, KeyError, IndexError, ValueError) as error:
-        found = [f"the bundle is torn: {error}"]
+        found = [f"the bundle is incomplete: {error}"]
     os.remove(bundle)
     return found
 
@@ -120,7 +120,7 @@ def main():
         found += [f"merged {run} is gone or changed" for run in before_merged if now_merged.get(run) != before_merged[run]]
         failures.extend(f"kill {kill} of {name}: {each}" for each in found)
         before, before_merged = now, now_merged
-        if len(now) == 12:  # all there: from the beginning
+        if len(now) == 12:  # complete: start again
             rounds += 1
             for folder in (place.out, merged, volumes):
                 shutil.rmtree(folder, ignore_errors=True)
@@ -128,12 +128,12 @@ def main():
     for name, command in commands(place).items():
         code, said = place.call(command)
         if code:
-            failures.append(f"{name} then ends with {code}: {said[-300:]!r}")
+            failures.append(f"{name} then exits with {code}: {said[-300:]!r}")
     if not os.path.exists(os.path.join(place.work, "bundle.tar")):
         failures.append("bundle then packs nothing")
     failures.extend(faults_of(place.out, 12) + faults_of(merged, 12) + volumes_of(volumes) + bundle_of(place.work))
     print(f"seed {given.seed}: {given.kills} kills, " + ", ".join(f"{count} of {name}" for name, count in killed.items()) +
-          f" while it worked; {rounds} times through the suite")
+          f" while it worked; {rounds} complete suites")
     for failure in failures[:40]:
         print(failure)
     print(f"{len(failures)} failures")

@@ -1,4 +1,4 @@
-"""Calls the program for the tests of this folder and says what it may not do."""
+"""Calls the program for the tests of this folder and checks what no call may do."""
 
 import os
 import signal
@@ -6,7 +6,7 @@ import subprocess
 import threading
 import time
 
-INTERRUPTED_AFTER, KILLED_AFTER = 8, 20  # seconds; a run that is merely long ends by itself once it is interrupted
+INTERRUPTED_AFTER, KILLED_AFTER = 8, 20  # seconds; a run that is only long ends when it is interrupted
 RESIDENT_BYTES = 1_000_000_000
 LINE_BYTES = 1_000
 
@@ -20,7 +20,7 @@ def seed():
 
 
 class Call:
-    """One call, without a display and without a terminal. `faults`: what it did that no call may do."""
+    """One call, without a display and a terminal. `faults`: violations of what every call must respect."""
 
     def __init__(self, program, arguments, folder):
         environment = {name: value for name, value in os.environ.items()

@@ -1,9 +1,9 @@
-"""Mutated command lines: whatever is asked, the program ends in time, says in one line what is wrong, and needs little memory.
+"""Mutated command lines: for any arguments the program ends in time, reports errors in one line, and needs little memory.
 
     command_lines_test.py PROGRAM
 
-300 cases, or DUSTBENCH_FUZZ_CASES; DUSTBENCH_FUZZ_SEED gives others. `called.py` says what no call may do. All files lie in a
-folder of the case's own, devices and system files behind links in it: no argument leaves it.
+300 cases, or DUSTBENCH_FUZZ_CASES; DUSTBENCH_FUZZ_SEED selects others. `called.py` defines the faults. Each case has a folder with all
+its files, and links to devices and system files; no argument points outside it.
 """
 
 import collections
@@ -58,7 +58,7 @@ OPTIONS = ["--out", "--frames", "--size", "--seed", "--threads", "--data", "--ad
 
 
 def png(width, height, shade):
-    """A grey picture, of which `shade` is a number or, for a picture that says more than it holds, None."""
+    """A grey picture; `shade` is a number, or None for a picture that is shorter than its header states."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     rows = b"" if shade is None else (b"\0" + bytes([shade]) * width) * height
@@ -99,7 +99,7 @@ def copy_template(template, folder):
 
 
 def stays_inside(argument):
-    """Whether no part of it that could be a path leaves the case's folder."""
+    """True if no part that could be a path leaves the folder of the case."""
     return not re.search(r"(^|[=:,'\"\s])/|\.\.", argument)
 
 

@@ -1,9 +1,9 @@
-"""`report` over damaged results: it ends with 0 as long as a run is whole, and names every run of which a file was touched.
+"""`report` on damaged results: it exits with 0 as long as one run is complete, and names every run with a damaged file.
 
     damaged_folders_test.py PROGRAM
 
-100 folders, or DUSTBENCH_FUZZ_CASES; DUSTBENCH_FUZZ_SEED gives others. Each is a copy of a small result of three runs, of which up to
-two have one to three files cut, changed, removed or replaced; tables beside the runs may be damaged as well.
+100 folders, or DUSTBENCH_FUZZ_CASES; DUSTBENCH_FUZZ_SEED selects others. Each is a copy of a small result of three runs, of which up to
+two have one to three files cut, changed, removed or replaced; tables next to the runs may also be damaged.
 """
 
 import collections
@@ -23,7 +23,7 @@ JSON = [b'"abc"', b"1e999", b"-1", b"2147483647", b"null", b"[]", b"{}", b"[" * 
 
 
 def damaged(content, chance):
-    """Never the same as before."""
+    """A damaged copy; never equal to the original."""
     kind, at = chance.randrange(6), chance.randrange(len(content) + 1)
     if kind == 0:
         changed = content[:at]
@@ -43,7 +43,7 @@ def damaged(content, chance):
 
 
 def damage(file, chance):
-    """In what way."""
+    """Damages the file; returns how."""
     kind = chance.randrange(10)
     if kind < 6:
         file.write_bytes(damaged(file.read_bytes(), chance))
@@ -62,7 +62,7 @@ def damage(file, chance):
 
 
 def damage_folder(folder, chance):
-    """The runs that were damaged, with file and way."""
+    """Damages runs; returns them with file and kind of damage."""
     done = []
     runs = sorted(folder.glob("runs/*"))
     for run in chance.sample(runs, 1 + chance.randrange(2)):
@@ -93,11 +93,11 @@ def main(program):
             if call.code != 0:
                 call.faults.append(f"exit code {call.code}")
             said = (call.out + call.err).decode(errors="replace")
-            # What a changed run.json says is read as it stands: nothing else holds it, or the other files then, to what they were.
+            # A changed run.json is read as it is: nothing else records its original content, nor then that of the other files.
             rewritten = {run for run, file, way in done if (file, way) == ("run.json", "changed")}
             for run, file, way in done:
                 if run not in said and run not in rewritten:
-                    call.faults.append(f"{file} of {run} was {way}, and nothing was said")
+                    call.faults.append(f"{file} of {run} was {way}, but not reported")
             if not (parent / "res" / "index.html").is_file():
                 call.faults.append("no page")
             shutil.rmtree(parent)

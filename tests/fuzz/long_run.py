@@ -1,9 +1,9 @@
-"""Mutants for a while: of files for the readers, of command lines and of results for the program, each round with another seed.
+"""Fuzzes readers with mutated files, and the program with mutated command lines and results, each round with another seed.
 
     long_run.py --minutes M --readers FUZZ_TESTS --program DUSTBENCH --findings FOLDER [--seed SEED] [--cases N]
 
-The seed is the clock's unless it is given; it is printed, and DUSTBENCH_FUZZ_SEED=SEED repeats a round. What fails leaves a folder in
-FOLDER, with the output and, of a reader that crashed, the file that it was reading. Exit code: 1 if anything was found.
+The default seed is the time; it is printed, and DUSTBENCH_FUZZ_SEED=SEED repeats a round. Each failure leaves a folder in FOLDER with the
+output and, if a reader crashed, the file that it was reading. Exit code: 1 if anything was found.
 """
 
 import argparse
@@ -29,7 +29,7 @@ def targets_of(readers, program):
 
 
 def one_round(name, command, seed, cases, findings):
-    """Whether all was well."""
+    """True without a failure."""
     folder = findings / f"{name}-{seed}"
     (folder / "files").mkdir(parents=True)
     environment = dict(os.environ, TMPDIR=str(folder / "files"), DUSTBENCH_FUZZ_SEED=str(seed), DUSTBENCH_FUZZ_CASES=str(cases))
@@ -37,7 +37,7 @@ def one_round(name, command, seed, cases, findings):
         try:
             code = subprocess.run(command, env=environment, stdout=output, stderr=subprocess.STDOUT, timeout=ROUND_SECONDS).returncode
         except subprocess.TimeoutExpired:
-            code = "none: it took too long"
+            code = "none (timed out)"
     if code == 0:
         shutil.rmtree(folder)
     else:

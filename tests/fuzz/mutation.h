@@ -1,4 +1,4 @@
-// Damages a file's bytes at random, in the ways that files are damaged and forged.
+// Mutates the bytes of a file at random, like accidental damage and forgery.
 #pragma once
 
 #include <algorithm>
@@ -58,7 +58,7 @@ class Mutation {
         text.erase(begin, text.find('\n', at) - begin + 1);
     }
 
-    /// The number after the place becomes one at a limit.
+    /// Replaces the number after the position by a limit value.
     void replaceNumber(std::string& text, std::size_t at) {
         static constexpr std::array<std::string_view, 14> numbers{
             "0",   "-1",   "1",       "255",   "65536",     "2147483647",           "2147483648",

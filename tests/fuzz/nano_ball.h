@@ -1,4 +1,4 @@
-// A small ball of fog in a file of NanoVDB, to mutate.
+// Writes a small ball of fog as a NanoVDB file, to mutate.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// Reads mutants of valid files with all readers: each is read, or refused in one line. What crashes leaves its case in
-// the temporary folder, as `fuzz-<name>`. 300 cases each, or DUSTBENCH_FUZZ_CASES; DUSTBENCH_FUZZ_SEED gives others.
+// Reads mutants of valid files with all readers: each is read or refused in one line. After a crash the file is in the
+// temporary folder, as `fuzz-<name>`. 300 cases each, or DUSTBENCH_FUZZ_CASES; DUSTBENCH_FUZZ_SEED selects others.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -46,7 +46,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A number of the environment, at least 1.
+/// A number from the environment, at least 1.
 int given(const char* name, int initial) {
     const char* const text = std::getenv(name);
     return text ? std::max(std::atoi(text), 1) : initial;
@@ -68,7 +68,8 @@ std::string bytesOf(const fs::path& file) {
     return files::wholeText(file, "a file to mutate", files::limits::geometryBytes);
 }
 
-/// `name` has the extension that the reader goes by; the mutants are written beside the original if that names others.
+/// `name` has the extension that the reader expects; mutants are written next to the original if that names other
+/// files.
 void expectSound(const std::string& name, const std::string& original, const std::function<void(const fs::path&)>& read,
                  const fs::path& folder = fs::temp_directory_path(), int count = cases()) {
     const fs::path file = folder / ("fuzz-" + name);
@@ -85,7 +86,7 @@ void expectSound(const std::string& name, const std::string& original, const std
             ++refused;
             ASSERT_EQ(std::string(error.what()).find('\n'), std::string::npos)
                 << name << ", seed " << seed() << ", case " << n;
-        }  // anything else ends the test, and the file stays
+        }  // any other exception ends the test, and the file stays
     }
     EXPECT_TRUE(refused > 0 || count < 10) << name;
     fs::remove(file);
@@ -130,8 +131,8 @@ TEST(Fuzz, Meshes) {
                 read);
 }
 
-/// Leaks within are not counted: of some damaged PNG a text of 31 bytes stays. Our own reader calls libpng's simplified
-/// interface, which keeps nothing; so it is taken for OpenImageIO's, which reads what is no plain 8-bit PNG.
+/// Leaks inside are ignored: some damaged PNG files leave a text of 31 bytes. Our own reader uses libpng's simplified
+/// interface, which keeps nothing, so the leak is probably in OpenImageIO, which reads all PNG except plain 8-bit ones.
 void readPicture(const fs::path& file) {
 #if defined(__SANITIZE_ADDRESS__)
     const __lsan::ScopedDisabler notCounted;
@@ -191,7 +192,7 @@ TEST(Fuzz, Worlds) {
                 [](const fs::path& file) { (void)particles::systemsFromFile(file); });
     expectSound("scene.toml", bytesOf(data("scenes/plain.toml")),
                 [](const fs::path& file) { (void)bench::readScene(file); });
-    // A relief names pictures beside it.
+    // A relief names pictures in its folder.
     const TestFolder folder;
     fs::copy(data("reliefs"), folder.path(), fs::copy_options::recursive);
     expectSound(
@@ -228,7 +229,7 @@ TEST(Fuzz, Volumes) {
         read);
 }
 
-/// Who keeps no whole box gets as many numbers as there are cells, or the file is refused.
+/// A reader that does not keep the whole box gets one number per cell, or the file is refused.
 struct CellCount final : volumes::VolumeSink {
     void begin(const volumes::GridPlace& place) override { expected = place.cellCount(); }
     bool beginField(std::string_view field) override { return field == "density"; }
@@ -262,7 +263,7 @@ TEST(Fuzz, Densities) {
         std::max(cases() / 3, 1));
 }
 
-/// Each is read in a process of its own, which takes a while and may end in any way.
+/// Each file is read in a separate process, which takes a while and may end in any way.
 TEST(Fuzz, VolumesOfOpenVdb) {
     const TestFolder folder;
     bench::writeGridVdb(smallGrid(), 1, 1, folder.path() / "small.vdb");
@@ -288,7 +289,7 @@ TEST(Fuzz, VolumesOfOpenVdb) {
         fs::temp_directory_path(), std::max(cases() / 2, 1));
 }
 
-/// An index is mutated beside the file that it names.
+/// An index is mutated in the folder of the file that it names.
 TEST(Fuzz, DustFromFiles) {
     const TestFolder folder;
     const auto read = [](const fs::path& file) { (void)bench::DustSeries::read(file, ""); };

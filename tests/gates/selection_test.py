@@ -1,4 +1,4 @@
-"""The choice of gates: a change planted in each folder of the tree chooses the gates that it concerns.
+"""The choice of gates: a change in each folder of the tree selects the gates that it concerns.
 
     selection_test.py TABLE        gates.txt of a build
 """
@@ -79,7 +79,7 @@ class ASmallTable(unittest.TestCase):
     def test_a_deleted_folder_concerns_everything(self):
         plan = selection.select(self.table, ["methods/old/a.cpp"], deleted={"methods/old/a.cpp"})
         self.assertIn("methods/old/a.cpp", plan.everything)
-        # A file that is deleted from a folder that is still there concerns its module.
+        # Deleting a file from a folder that still exists concerns the folder's module.
         self.assertEqual(self.chosen("bench/room/upper/a.cpp", deleted={"bench/room/upper/a.cpp"}), ({"upper"}, {"whole.Room"}))
 
     def test_names_stand_for_modules_and_folders(self):
@@ -89,7 +89,7 @@ class ASmallTable(unittest.TestCase):
         self.assertEqual(self.table.below("nothing"), [])
         self.assertEqual(selection.unknown_names(self.table), [])
         self.assertEqual(selection.unknown_names(selection.read("test a FOR gone FILES\nplace b gone ALL\n")),
-                         ["place b: 'gone' is no module and no folder of modules", "test a: 'gone' is no module and no folder of modules"])
+                         ["place b: 'gone' is neither a module nor a folder of modules", "test a: 'gone' is neither a module nor a folder of modules"])
         with self.assertRaises(selection.BadTable):
             selection.read("modul base methods/base base_tests\n")
 
@@ -102,8 +102,8 @@ class TheTable(unittest.TestCase):
         self.assertEqual(selection.unknown_names(TABLE), [])
 
     def test_a_change_in_each_module_checks_it_and_whoever_includes_its_headers(self):
-        """The links of CMake against the includes of the sources, which are read here."""
-        holder = {}  # of each source, by the module's folder
+        """Compares the links in CMake with the includes in the sources."""
+        holder = {}  # module of each source, by folder
         for file in tracked():
             holder[file], _ = selection.holder(TABLE, file)
         users = {name: {name} for name in TABLE.modules}
@@ -141,7 +141,7 @@ class TheTable(unittest.TestCase):
 
 
 class TheBase(unittest.TestCase):
-    """The commit that a change counts from, in a repository made for it."""
+    """The commit that changes are compared with, in a repository made for the test."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="dustbench-gates-")

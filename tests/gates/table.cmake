@@ -1,11 +1,12 @@
-# Writes gates.txt, from which .ci/gates knows what a change concerns; included last, when all targets are known.
-#   module NAME FOLDER PROGRAM LINKS…        PROGRAM: its tests, or `-`; LINKS: modules whose change is also its own
+# Writes gates.txt, from which .ci/gates chooses the gates for a change. Included last, when all targets are known.
+#   module NAME FOLDER PROGRAM LINKS…        PROGRAM: its tests, or `-`; LINKS: modules that it links
 #   test NAME FOR modules… FILES paths…      dustbench_program_test
-#   place PATH modules…                      files that belong to no module, and the modules whose tests they concern
-# Methods are linked to the harness by the registry alone (dustbench_methods, which is no module): a method's change does
-# not reach the harness, only the tests that name it, and modules of this folder that link the registry: they draw with all.
+#   place PATH modules…                      files outside modules, and the modules whose tests they affect
+# The harness links methods only through the registry (dustbench_methods, which is not a module). A change to a method
+# therefore does not affect the harness, only the tests that name the method and the modules of this folder that link the
+# registry, because they draw with all methods.
 
-# place PATH [modules…]: longest path first; PATH may be a file. `ALL`: everything is judged again.
+# place PATH [modules…]: the longest path applies; PATH may be a file. `ALL`: all gates run.
 function(dustbench_place)
   dustbench_gates_line(place ${ARGN})
 endfunction()
@@ -22,7 +23,7 @@ dustbench_place(CONTRIBUTING.md)
 dustbench_place(LICENSE)
 dustbench_place(Makefile ALL)
 dustbench_place(README.md)
-dustbench_place(data/README.md) # tests/architecture reads it, and the bibliography
+dustbench_place(data/README.md) # read by tests/architecture, like the bibliography
 dustbench_place(data/drives bench/scene)
 dustbench_place(data/fluids grid_fluid)
 dustbench_place(data/papers bench/suite bench/claims)
@@ -30,14 +31,13 @@ dustbench_place(data/particles particles plugin_particles)
 dustbench_place(data/references.bib)
 dustbench_place(data/reliefs bench/scene relief)
 dustbench_place(data/scenes bench/scene)
-dustbench_place(data/selfcheck bench/selfcheck)
 dustbench_place(data/shapes voxel_shape)
 dustbench_place(data/suites bench/suite)
 dustbench_place(data/templates bench/cli)
 dustbench_place(data/textures billboard plugin_particles voxel_shape)
 dustbench_place(data/volumes volume)
 dustbench_place(methods/README.md)
-dustbench_place(methods/kit ALL) # what lies between its modules
+dustbench_place(methods/kit ALL) # files between its modules
 dustbench_place(reports/METRICS.md)
 dustbench_place(reports/SCHEMA.md)
 dustbench_place(reports/decisions)
@@ -47,17 +47,17 @@ dustbench_place(reports/report bench/report)
 dustbench_place(reports/sample)
 dustbench_place(tests/CMakeLists.txt ALL)
 dustbench_place(tests/elsewhere)
-dustbench_place(tests/external) # by hand, as are the next two
+dustbench_place(tests/external) # run by hand, as are the next two
 dustbench_place(tests/fuzz/coverage)
 dustbench_place(tests/fuzz/openvdb)
 dustbench_place(tests/gates ALL)
 dustbench_place(tests/one_kit one_kit)
-dustbench_place(tests/moved_tree) # always run, as is what follows
+dustbench_place(tests/moved_tree) # always runs, as do the next ones
 dustbench_place(tests/planted)
 dustbench_place(tests/sanitizers ALL)
 dustbench_place(tests/source_folder.h.in ALL)
 
-# What a target links of ours, and what it waits for.
+# Our libraries that a target links, and the targets that it depends on.
 function(dustbench_links RESULT)
   set(FOUND "")
   foreach(TARGET ${ARGN})

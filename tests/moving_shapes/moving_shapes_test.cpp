@@ -1,4 +1,4 @@
-// A preset beside a vehicle at any speed, as the harness drives it: as many particles, and the same picture.
+// A preset next to a vehicle at different speeds: equally many particles, and the same picture.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct Shown {
     pictures::Image layer;
 };
 
-/// A shape after its 30th frame, seen from a place that is fixed in the shape's own frame.
+/// A shape after its 30th frame, seen from a fixed position in the shape's own frame.
 Shown shownAt(const std::string& shape, const std::string& speed, const std::string& preroll = "1.5") {
     bench::LentContext context(1);
     const auto world =

@@ -1,4 +1,4 @@
-// Every node of an octree, for what looks at the tree as a whole.
+// Visits every node of an octree.
 #pragma once
 
 #include "methods/kit/octree/octree.h"
@@ -16,7 +16,7 @@ void visitBelow(const octree::Octree::Cursor& node, const Visit& visit) {
     }
 }
 
-/// Nodes that exist, the root not counted.
+/// Number of nodes, without the root.
 inline std::size_t countNodes(const octree::Octree& tree) {
     std::size_t nodes = 0;
     visitBelow(tree.root(), [&](const octree::Octree::Cursor&) { ++nodes; });

@@ -1,7 +1,7 @@
-// A million particles into voxels: both octree methods, both layouts, depth 8, 4 levels, from the particles' columns to
-// nodes and the list of voxels. Three clouds, in the order of emission and shuffled.
+// Cost of inserting a million particles into voxels: both octree methods, both layouts, depth 8, 4 levels, from the
+// particles' columns to nodes and the list of voxels. Three clouds, in the order of emission and shuffled.
 //
-// Beside the time: bytes of nodes a node (inner ones included), bytes of the list a voxel, all that is held a particle.
+// Also reports bytes per node (including inner nodes), bytes of the list per voxel, and total bytes per particle.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ constexpr std::size_t particleCount = 1'000'000;
 
 enum class Cloud { gaussian8, gaussian20, trail };
 
-/// The oldest particle first, as an emitter leaves them.
+/// The oldest particle first, as from an emitter.
 void fill(particles::ParticleStore& store, Cloud cloud, bool shuffled) {
     std::mt19937_64 random(1);
     std::normal_distribution<float> normal;
@@ -43,7 +43,7 @@ void fill(particles::ParticleStore& store, Cloud cloud, bool shuffled) {
         store.opacity[i] = 0.3f * (1 - life) + 0.01f * unit(random);
         store.radius[i] = 0.2f + life;
         if (cloud == Cloud::trail) {
-            // 40 m behind four wheels of a car, spreading with age.
+            // 40 m of trail behind the four wheels of a car, spreading with age.
             const float width = 0.2f + 1.5f * life;
             store.x[i] = 30 - 40 * life - (k % 4 < 2 ? 0.0f : 2.5f) + width * normal(random);
             store.y[i] = 0.7f * std::abs(width * normal(random));

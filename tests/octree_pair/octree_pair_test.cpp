@@ -1,4 +1,4 @@
-// Both octree methods, all layouts: the same voxels, and the right ones.
+// Both octree methods give the same, correct voxels in all layouts.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -55,7 +55,7 @@ struct Case {
     OctreeSettings settings;
 };
 
-/// A random set: clustered, on cell borders, on top of each other, outside; equal ages and opacities among them.
+/// A random set: clustered, on cell borders, in the same place, outside; some with equal ages and opacities.
 Case makeCase(std::mt19937_64& random, std::size_t count, ParticleStore& store) {
     const auto upTo = [&random](int n) { return static_cast<int>(random() % static_cast<std::uint64_t>(n)); };
     std::uniform_real_distribution<float> unit(0, 1);
@@ -89,7 +89,7 @@ Case makeCase(std::mt19937_64& random, std::size_t count, ParticleStore& store) 
         store.age[i] = upTo(4) == 0 ? 0.25f : store.lifetime[i] * unit(random);
         store.opacity[i] = upTo(4) == 0 ? 0.125f * static_cast<float>(upTo(3)) : 0.999f * unit(random);
         store.radius[i] = 0.01f + 2 * unit(random);
-        store.serial[i] = i * 2654435761u % 4294967291u;  // in another order than they are stored
+        store.serial[i] = i * 2654435761u % 4294967291u;  // in another order than in memory
     }
     return made;
 }
@@ -100,7 +100,7 @@ std::string described(const Case& made, std::size_t count) {
            std::to_string(static_cast<int>(made.settings.levelRule)) + " particles " + std::to_string(count);
 }
 
-/// Each voxel is the plain octree's; all of them are there; they come in pre-order; and the nodes lead to them.
+/// Voxels equal those of the plain octree, none is missing, they are in pre-order, and the nodes lead to them.
 void expectPlain(const Octree& tree, const Case& made, const PlainOctree& plain) {
     ASSERT_EQ(tree.voxels().size(), plain.voxels.size());
     const bool sums = made.settings.policy == octree::OpacityPolicy::accumulate;
@@ -133,7 +133,7 @@ TEST(OctreePair, GivesTheSameVoxelsInEveryWayOfBuilding) {
     MemoryLedger ledger;
     ParticleStore store(ledger);
     Octree tree(ledger), first(ledger);
-    auto builders = allBuilders(ledger);  // kept over all sets: nothing of the last one may be left
+    auto builders = allBuilders(ledger);  // used for all sets: nothing of the previous set may remain
     for (int set = 0; set < 3000; ++set) {
         const std::size_t count = set < 200 ? static_cast<std::size_t>(set % 4) : random() % 400;
         const Case made = makeCase(random, count, store);
@@ -152,7 +152,7 @@ TEST(OctreePair, GivesTheSameVoxelsInEveryWayOfBuilding) {
     }
 }
 
-/// Where no cell's edge is a power of two, coordinates are rounded: alike in every way of building.
+/// If the edge of a cell is not a power of two, coordinates are rounded: equally in all ways of building.
 TEST(OctreePair, GivesTheSameVoxelsInWorldsOfAnyEdge) {
     std::mt19937_64 random(77);
     MemoryLedger ledger;
@@ -225,7 +225,8 @@ TEST(OctreePair, GivesTheSameVoxelsOfManyParticlesAtAnyNumberOfThreads) {
     }
 }
 
-/// So many that a sorted particle has no room for all bits of its priority, which differ in the last ones alone.
+/// So many that a sort key cannot contain all bits of a particle's priority, and priorities differ only in the last
+/// ones.
 TEST(OctreePair, TellsPrioritiesApartByTheirLastBits) {
     constexpr std::size_t count = (1 << 20) + 77;
     std::mt19937_64 random(21);
@@ -298,7 +299,7 @@ TEST(OctreePair, StopsAtAPositionThatIsNotANumberAndNamesItsParticle) {
         Octree tree(ledger);
         try {
             each.builder->build(store, made.lattice, made.settings, tree);
-            ADD_FAILURE() << each.name << " took it";
+            ADD_FAILURE() << each.name << " accepted it";
         } catch (const std::runtime_error& error) {
             EXPECT_THAT(error.what(), testing::HasSubstr(std::to_string(store.serial[1234])));
         }

@@ -1,9 +1,9 @@
 #!/bin/bash
-# What programs and libraries hold, show and load.
+# Checks which symbols programs and libraries define and export, and which libraries they load.
 #
-#   borders.sh shows-ours-alone LIBRARY          shows names of dustbench and no others
-#   borders.sh loads-none PROGRAM PATTERN        needs no library of such a name, be it through others
-#   borders.sh holds-no-copy PROGRAM LIBRARY     defines nothing that the library shows, and finds it when both are moved
+#   borders.sh shows-ours-alone LIBRARY          exports only names of dustbench
+#   borders.sh loads-none PROGRAM PATTERN        loads no library with a matching name, directly or indirectly
+#   borders.sh holds-no-copy PROGRAM LIBRARY     defines nothing that the library exports, and finds it when both are moved
 set -euo pipefail
 shown() { nm --dynamic --defined-only "$1" | awk '{ print $3 }' | sed 's/@.*//' | sort -u; }
 
@@ -16,9 +16,9 @@ fail() {
 case "$1" in
     shows-ours-alone)
         names="$(shown "$2" | c++filt)"
-        [[ -n $names ]] || fail "$2 shows nothing" ""
+        [[ -n $names ]] || fail "$2 exports nothing" ""
         others="$(grep -vE '^((vtable|typeinfo|typeinfo name) for )?dustbench::' <<< "$names" || true)"
-        [[ -z $others ]] || fail "$2 shows what is not ours:" "$others"
+        [[ -z $others ]] || fail "$2 exports foreign names:" "$others"
         ;;
     loads-none)
         found="$(ldd "$2" | grep -E "$3" || true)"
@@ -26,7 +26,7 @@ case "$1" in
         ;;
     holds-no-copy)
         copies="$(comm -12 <(shown "$3") <(nm --defined-only "$2" | awk '{ print $3 }' | sort -u) | c++filt)"
-        [[ -z $copies ]] || fail "$2 holds a copy of what $(basename "$3") shows:" "$copies"
+        [[ -z $copies ]] || fail "$2 contains copies of symbols from $(basename "$3"):" "$copies"
         moved="$(mktemp -d)"
         trap 'rm -r "$moved"' EXIT
         cp "$2" "$3" "$moved"

@@ -1,4 +1,4 @@
-// What the test program asks of a library that it loads, which holds a method from outside.
+// The interface between the test program and a library with an external method that it loads.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +16,11 @@ struct ForeignMethod {
     MethodInfo (*describe)();
     /// A listener that is a method as well, or null.
     const Method* (*methodBehind)(const StageListener& listener);
-    /// Books an array of so many numbers; it lives as long as the result.
+    /// Registers an array of this many numbers in the ledger, for the lifetime of the result.
     std::shared_ptr<void> (*book)(MemoryLedger& ledger, std::size_t count);
     const std::vector<particles::PartInfo>& (*partTable)();
     const std::type_info& (*typeOfMethods)();
-    /// Whether the kit's InputError for an unknown part is caught as such.
+    /// True if the kit's InputError for an unknown part is caught as InputError.
     bool (*catchesUnknownPart)();
 };
 

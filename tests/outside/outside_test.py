@@ -1,7 +1,7 @@
-"""A method and a part in a project of their own, built against an installed dustbench; libraries that cannot be taken.
+"""A method and a part in a separate project, built against an installed dustbench; libraries that are refused.
 
-outside_test.py BUILD WORK: BUILD is installed into WORK/prefix, and nothing else of it or of its sources is used. Prints
-what differs; ends with 1 if anything does.
+outside_test.py BUILD WORK: installs BUILD into WORK/prefix and uses nothing else of the build or its sources. Prints failures;
+exits with 1 if there are any.
 """
 import csv
 import hashlib
@@ -58,13 +58,13 @@ def install():
     before = manifest.read_text() if manifest.exists() else None
     call("cmake", "--install", build, "--prefix", prefix, where=work)
     installed.extend(manifest.read_text().splitlines())
-    manifest.unlink() if before is None else manifest.write_text(before)  # it belongs to who built
+    manifest.unlink() if before is None else manifest.write_text(before)  # owned by the user of the build
     for file in ["bin/dustbench", "lib/dustbench/kit/libdustbench_kit.so", "share/man/man1/dustbench.1",
                  "share/bash-completion/completions/dustbench", "share/dustbench/scenes/plain.toml",
                  "include/dustbench/methods/contract/method.h", "lib/cmake/dustbench/dustbenchConfig.cmake"]:
         expect((prefix / file).is_file(), f"installed: no {file}")
     for file in prefix.rglob("*"):
-        # Paths below WORK lie in the source tree in most builds, but none may be in what is installed either.
+        # Paths below WORK are in the source tree in most builds, but must not occur in installed files either.
         expect(file.is_dir() or str(source).encode() not in file.read_bytes(), f"{file} names the source tree")
 
 
@@ -99,7 +99,7 @@ def use(project):
         row = next(csv.DictReader(table))
     expect(row["status"] == "done" and float(row["psnr_db"]) > 0 and float(row["dust_height_max"]) > 0, f"summary: {row}")
     dustbench("report", "out")
-    expect("haze" in (place / "out/index.html").read_text(), "the page does not name it")
+    expect("haze" in (place / "out/index.html").read_text(), "the page does not name the method")
     (place / "pair.toml").write_text('title = "Two"\nmethods = ["haze", "null_method"]\nframes = 2\nwarmup = 0\n'
                                      'sizes = ["96x72"]\n[parameters]\nparticles = 200\npreroll = 0.5\n')
     suite = ["suite", "pair.toml", "--method-path", project / "build", "--out", "pair"]
@@ -125,7 +125,7 @@ def expect_input(library, out):
 
 
 def use_part(project):
-    """Updraught changes a particle system, as much as its speed says."""
+    """Updraught changes a particle system according to its speed."""
     system = (prefix / "share/dustbench/particles/fountain.toml").read_text()
     hashes = []
     for speed in (0, 2):
@@ -134,29 +134,29 @@ def use_part(project):
                   "--frames", "2", "--method-path", project / "build", "--out", f"lifted{speed}")
         hashes.append(record_of(f"lifted{speed}")["method_hash"])
         expect_input(project / "build/haze.dustmethod.so", f"lifted{speed}")
-    expect(hashes[0] != hashes[1], f"an updraught changes nothing: {hashes}")
+    expect(hashes[0] != hashes[1], f"the updraught changes nothing: {hashes}")
 
 
 def refused(folder, identifier, reason):
     listed = dustbench("list", "methods", "--method-path", folder)
-    lines = [line for line in listed.stdout.splitlines() if "is not taken" in line and f"{identifier}.dustmethod.so" in line]
+    lines = [line for line in listed.stdout.splitlines() if "is not loaded" in line and f"{identifier}.dustmethod.so" in line]
     expect(lines and reason in lines[0], f"{identifier}: expected '{reason}', got {lines}")
     used = dustbench("run", "--method", identifier, "--method-path", folder, "--out", "none", status=3).stderr
     expect(used.count("\n") == 1 and reason in used, f"run of {identifier}: {used}")
 
 
 def option(flag):
-    """After the flags of the package."""
+    """Adds a flag after those of the package."""
     return f'target_compile_options(dustbench::kit INTERFACE "{flag}")\ntarget_link_options(dustbench::kit INTERFACE "{flag}")'
 
 
 def refuse(project):
-    # The part alone: what the entry tells is the same, and this compiles faster.
+    # Only the part: the entry is the same, and this compiles faster.
     for file in ("haze.cpp", "haze_test.cpp"):
         (project / file).unlink()
     build_project(project, "haze.dustmethod.so", options=["-DCMAKE_BUILD_TYPE=Debug"])
     taken = dustbench("list", "parts", "--ids", "--method-path", project / "build").stdout
-    expect("force/updraught" in taken.splitlines(), "a debug build brings the same NDEBUG, and is taken")
+    expect("force/updraught" in taken.splitlines(), "a debug build has the same NDEBUG and must be accepted")
     plain = "-march=x86-64 " in (prefix / "lib/cmake/dustbench/dustbenchConfig.cmake").read_text()
     for name, line, fact in [
             ("fast", option("-ffast-math"), "__FAST_MATH__ is 1, expected undefined"),
@@ -194,14 +194,14 @@ def refuse(project):
     twice.mkdir()
     shutil.copy(project / "build/haze.dustmethod.so", twice)
     both = dustbench("list", "methods", "--method-path", project / "build", "--method-path", twice).stdout
-    why = [line for line in both.splitlines() if f"{twice}/haze.dustmethod.so is not taken" in line]
-    expect(why and f"is there already, from {project}/build/haze.dustmethod.so" in why[0], f"twice: {why}")
+    why = [line for line in both.splitlines() if f"{twice}/haze.dustmethod.so is not loaded" in line]
+    expect(why and f"already exists, from {project}/build/haze.dustmethod.so" in why[0], f"twice: {why}")
     missing = dustbench("list", "--method-path", "nowhere", status=3).stderr
     expect("nowhere" in missing, missing)
-    expect("is there already" in dustbench("new-method", "null_method", status=3).stderr, "new-method null_method")
-    expect("is there already" in dustbench("new-method", "haze", status=3).stderr, "new-method haze")
-    expect("tests or benchmarks" in dustbench("new-method", "fog_test", status=3).stderr, "new-method fog_test")
-    expect("lower case" in dustbench("new-method", "Haze", status=3).stderr, "new-method Haze")
+    expect("already exists" in dustbench("new-method", "null_method", status=3).stderr, "new-method null_method")
+    expect("already exists" in dustbench("new-method", "haze", status=3).stderr, "new-method haze")
+    expect("tests and benchmarks" in dustbench("new-method", "fog_test", status=3).stderr, "new-method fog_test")
+    expect("lower-case" in dustbench("new-method", "Haze", status=3).stderr, "new-method Haze")
 
 
 def uninstall():

@@ -1,20 +1,20 @@
 #!/usr/bin/env python3
-"""Plants faults in a copy of the tree and checks that a test or a claim's verdict notices each.
+"""Plants faults in a copy of the tree and checks that a test or the verdict of a claim detects each.
 
     planted.py [NAME …]        patches of this folder, without `.patch`; default: all
-    planted.py --fit           only checks that every patch has its header and fits the sources, and that the sample
-                               reports have the verdicts to be turned; builds nothing
+    planted.py --fit           only checks that every patch has a header and applies to the sources, and that the sample
+                               reports have the expected verdicts; builds nothing
 
 A patch begins with a header:
 
-    Fault: what is wrong, in one sentence
+    Fault: the fault in one sentence
     Build: targets of the build, separated by spaces
-    Test: one test of one of these targets, Suite.Name                        this one must fail
-    Claim: ID of PAPER, from SUITE, VERDICT                                   or: this must not be its verdict any more
+    Test: one test of one of these targets, Suite.Name                        which must then fail
+    Claim: ID of PAPER, from SUITE, VERDICT                                   or a claim, which must no longer have this verdict
 
-For each, the unchanged copy is built first and must pass, or have that verdict. Then the fault is planted and must be
-noticed. The copy is build/planted/tree; it is kept, so that the next call builds little. Exit code: 0 if all faults
-are noticed, 1 if one is not, 3 for a bad name or a bad patch.
+For each fault, the unchanged copy is built first and must pass the test or have the verdict. Then the fault is planted and
+must be detected. The copy build/planted/tree is kept, so that the next call builds little. Exit code: 0 if all faults are
+detected, 1 if one is not, 3 for a wrong name or an invalid patch.
 """
 
 import csv
@@ -39,7 +39,7 @@ class BadPatch(Exception):
 
 
 class Unexpected(Exception):
-    """Something else went wrong than what was planted."""
+    """A failure other than the planted fault."""
 
 
 def read(file):
@@ -69,7 +69,7 @@ def chosen(names):
 
 
 def synchronise():
-    """Makes the copy equal to the tree. Files that are alike keep their time, so that they are not built again."""
+    """Makes the copy equal to the tree. Equal files keep their modification time, so that they are not built again."""
     wanted = set()
     for part in PARTS:
         top = SOURCE / part
@@ -82,7 +82,7 @@ def synchronise():
             if copy.exists() and copy.read_bytes() == file.read_bytes():
                 continue
             copy.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(file, copy)  # with the time of now
+            shutil.copy(file, copy)  # with the current time
     for part in PARTS:
         for file in (TREE / part).rglob("*"):
             if file.is_file() and file.relative_to(TREE) not in wanted:
@@ -97,7 +97,7 @@ def build(targets):
     environment = os.environ | {"CCACHE_BASEDIR": str(TREE)}
     subprocess.run([str(SOURCE / ".ci" / "drop-stale-builds"), str(BUILD)], check=True)
     if not (BUILD / "build.ninja").exists():
-        werror = os.environ.get("DUSTBENCH_WERROR", "OFF")  # as the build beside it, whose objects the compiler cache has
+        werror = os.environ.get("DUSTBENCH_WERROR", "OFF")  # as in the tree's own build, whose objects are in the compiler cache
         configured = call(["cmake", "--preset", "release", f"-DDUSTBENCH_WERROR={werror}"], env=environment)
         if configured.returncode != 0:
             raise Unexpected(f"the copy cannot be configured:\n{configured.stdout}")
@@ -111,11 +111,11 @@ def plant(file, *options, tree=TREE):
     planted = subprocess.run(["patch", f"--directory={tree}", "--strip=1", "--forward", "--no-backup-if-mismatch", *options, f"--input={file}"],
                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if planted.returncode != 0:
-        raise Unexpected(f"the patch does not fit the sources any more:\n{planted.stdout}")
+        raise Unexpected(f"the patch no longer applies to the sources:\n{planted.stdout}")
 
 
 def check_sample(claim):
-    """A patch whose claim has another verdict by now would turn nothing."""
+    """A patch cannot change a verdict that the claim no longer has."""
     identity, paper, _, expected = CLAIM.fullmatch(claim).groups()
     with open(SOURCE / "reports" / "sample" / paper / "claims.csv", newline="", encoding="utf-8") as file:
         found = [row["verdict"] for row in csv.DictReader(file) if row["id"] == identity]
@@ -124,7 +124,7 @@ def check_sample(claim):
 
 
 def fit():
-    """Says which patches do not fit the sources; returns the exit code."""
+    """Prints the patches that do not apply to the sources; returns the exit code."""
     code = 0
     for name, file in chosen([]).items():
         try:
@@ -155,7 +155,7 @@ def verdict(name, identity, paper, suite):
     shutil.rmtree(out, ignore_errors=True)
     for command in (["suite", suite, "--quick", "--out", str(out)], ["report", str(out)]):
         called = call([str(BUILD / "dustbench"), *command])
-        if called.returncode not in (0, 1):  # 1: a run failed, which may be what the fault does
+        if called.returncode not in (0, 1):  # 1: a run failed, perhaps because of the fault
             raise Unexpected(f"dustbench {' '.join(command)}: exit code {called.returncode}\n{called.stdout[-2000:]}")
     with open(out / "claims.csv", newline="") as file:
         for row in csv.DictReader(file):
@@ -165,7 +165,7 @@ def verdict(name, identity, paper, suite):
 
 
 def state(name, header):
-    """Whether all is well in the copy, and a word for it."""
+    """True without a fault in the copy, and the state as text."""
     targets = header["Build"].split()
     build(targets)
     if "Test" in header:
@@ -177,7 +177,7 @@ def state(name, header):
 
 
 def notices(name, file):
-    """Prints what happens to one fault; returns whether it is noticed."""
+    """Tests one fault and prints the result; returns whether it is detected."""
     header = read(file)
     judge = header.get("Test") or f"claim {header['Claim']}"
     print(f"{name}: {header['Fault']}", flush=True)
@@ -185,11 +185,11 @@ def notices(name, file):
     well, word = state(name, header)
     print(f"    without the fault {judge} {word}", flush=True)
     if not well:
-        print("    NOT TESTED: it must be well without the fault", flush=True)
+        print("    NOT TESTED: it must pass without the fault", flush=True)
         return False
     plant(file)
     well, word = state(name, header)
-    print(f"    with it           {judge} {word}: {'NOT NOTICED' if well else 'noticed'}", flush=True)
+    print(f"    with it           {judge} {word}: {'NOT DETECTED' if well else 'detected'}", flush=True)
     return not well
 
 
@@ -210,7 +210,7 @@ def main():
                 noticed.append(name)
         except Unexpected as error:
             print(f"    NOT TESTED: {error}", flush=True)
-    print(f"planted: {len(noticed)} of {len(patches)} faults are noticed")
+    print(f"planted: {len(noticed)} of {len(patches)} faults are detected")
     return 0 if len(noticed) == len(patches) else 1
 
 

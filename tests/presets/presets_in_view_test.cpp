@@ -1,5 +1,5 @@
-// Every delivered shape and particle system is in the picture: particles lie within the view of the camera that a user
-// sees it by, and cover pixels of it.
+// Every delivered shape and particle system is visible: particles are within the view of the default camera, and cover
+// pixels.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,12 +17,12 @@ namespace {
 
 constexpr int width = 160, height = 120;
 
-/// Where a preset is looked at: the scene and camera that its file names, or what a run has by default.
+/// The scene and camera of a preset: those that its file names, or the defaults of a run.
 struct Place {
     const char *scene = "plain", *camera = "chase";
 };
 
-/// Counts the puffs whose middles lie in the picture.
+/// Counts the puffs whose centres are in the picture.
 class InView final : public VolumeVisitor {
  public:
     explicit InView(const scene::View& view) : toClip_(view.worldToClip()) {}
@@ -43,7 +43,7 @@ class InView final : public VolumeVisitor {
     glm::mat4 toClip_;
 };
 
-/// Looks at the method as it is now. `leastShare`: of the particles that are in the picture.
+/// Checks the current state of the method. `leastShare`: minimum share of the particles in the picture.
 void expectSeen(Method& method, const Frame& frame, draw::TestCanvas& canvas, double leastShare) {
     EXPECT_GT(method.primitives(), 0);
     InView counted(frame.view);
@@ -59,7 +59,7 @@ void expectSeen(Method& method, const Frame& frame, draw::TestCanvas& canvas, do
     EXPECT_GT(covered, width * height / 400);
 }
 
-/// Looks at the first frame of a run, after a preroll, and at one two seconds later, when a car has gone 40 m.
+/// Checks the first frame of a run, after a preroll, and a frame two seconds later, when a car has driven 40 m.
 void expectInView(const char* method, const char* parameter, const std::string& preset, const Place& place,
                   int prerollSeconds, double leastShare) {
     SCOPED_TRACE(std::string(method) + ' ' + preset + " in " + place.scene);
@@ -88,7 +88,7 @@ TEST(PresetsInView, OfEveryShape) {
 }
 
 TEST(PresetsInView, OfEveryParticleSystem) {
-    // Systems that stand somewhere name their scene in their files; the others are what wheels raise.
+    // Systems with a fixed position name their scene in their files; the others are dust from wheels.
     const Place dusk{"dusk", "fixed"};
     const std::map<std::string, Place> others{{"carr_dust", {}},
                                               {"wheel_dust", {}},
@@ -96,7 +96,7 @@ TEST(PresetsInView, OfEveryParticleSystem) {
                                               {"snow", {"snowfall", "fixed"}},
                                               {"torch", {"cascade", "fixed"}},
                                               {"waterfall", {"cascade", "fixed"}}};
-    constexpr double leastShare = 0.1;  // snow falls over a wider field than is seen, so that none is missed
+    constexpr double leastShare = 0.1;  // snow falls over a wider area than the view, so that none is missing
     const std::vector<std::string> names = files::listData("particles", ".toml");
     EXPECT_GE(names.size(), 19u);
     for (const std::string& name : names) {

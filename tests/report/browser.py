@@ -1,6 +1,6 @@
-"""A headless Chromium, driven by its DevTools protocol over a pipe: nothing but Python's standard library.
+"""Drives a headless Chromium by its DevTools protocol over a pipe, with Python's standard library alone.
 
-Commands go to the browser's file descriptor 3 and answers and events come from 4, as JSON with a zero byte behind each.
+Commands go to the browser's file descriptor 3; answers and events come from 4. Each is JSON followed by a zero byte.
 """
 
 import base64
@@ -23,11 +23,11 @@ def find():
 
 
 class Browser:
-    """One page at a time. `errors` collects what its console and its scripts complain of."""
+    """One page at a time. `errors` collects the errors of its console and its scripts."""
 
     def __init__(self, path, width=1400, height=1000):
         self.folder = tempfile.mkdtemp(prefix="dustbench-browser-")
-        # Away from 3 and 4, so that putting them there cannot close one of them.
+        # Keeps the pipes off descriptors 3 and 4, so that moving them there cannot close one of them.
         to_child, self._out = (fcntl.fcntl(end, fcntl.F_DUPFD_CLOEXEC, 10) for end in os.pipe())
         self._in, from_child = (fcntl.fcntl(end, fcntl.F_DUPFD_CLOEXEC, 10) for end in os.pipe())
 
@@ -107,7 +107,7 @@ class Browser:
                 return answer["result"]
 
     def evaluate(self, script):
-        """The value of a JavaScript expression; promises are waited for."""
+        """Returns the value of a JavaScript expression, after promises are settled."""
         answer = self.call("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in answer:
             details = answer["exceptionDetails"]
@@ -122,14 +122,14 @@ class Browser:
             time.sleep(0.02)
 
     def open(self, file):
-        """Opens a file and waits until its charts are drawn; gives the seconds that took."""
+        """Opens a file, waits until its charts are drawn, and returns the seconds that this took."""
         begin = time.monotonic()
         self.call("Page.navigate", url="file://" + os.path.abspath(file))
         self.wait_for("document.documentElement?.dataset.ready !== undefined", 60)
         return time.monotonic() - begin
 
     def open_at(self, file, anchor):
-        """The same, at an anchor with what follows it."""
+        """The same, at an anchor and the choices after it."""
         self.call("Page.navigate", url="file://" + urllib.parse.quote(os.path.abspath(file)) + anchor)
         self.wait_for("document.documentElement?.dataset.ready !== undefined", 60)
 

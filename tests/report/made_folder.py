@@ -1,6 +1,6 @@
-"""A results folder without any measurement: the runs of real suites, with times and metrics by formula.
+"""Makes a results folder without measurements: the runs of real suites, with times and metrics from formulas.
 
-What is not in a formula here is not in the folder: so a test knows what the page must show.
+Every number in the folder comes from a formula here, so a test knows the numbers that the page must show.
 """
 
 import csv
@@ -14,7 +14,7 @@ import zlib
 EVIL = "</script><img src=x onerror=\"document.title='broken'\">&amp;"
 STAGES = "input simulate build sort upload scene draw wait".split()
 
-# A paper whose experiment takes seconds: files of its folder.
+# The files of a paper whose suite takes seconds.
 TINY_PAPER = {
     "paper.toml": """id = "tiny"
 title = "A very short paper"
@@ -57,7 +57,7 @@ per = "p.particles"
 
 @functools.cache
 def png(width, height, colour):
-    """A PNG of one colour with a diagonal, so that a wipe shows."""
+    """A PNG of one colour with a diagonal, so that the wipe of the viewer is visible."""
     rows = b"".join(b"\0" + b"".join(bytes((255, 255, 255)) if x == y else bytes(colour) for x in range(width))
                     for y in range(height))
 
@@ -69,7 +69,7 @@ def png(width, height, colour):
 
 
 def planned(program, suite, out):
-    """Run id, method, parameters and repetition of every run that the suite's quick form would do."""
+    """Run id, method, parameters and repetition of every run in the quick run of the suite."""
     said = subprocess.run([program, "suite", suite, "--quick", "--dry-run", "--out", out], check=True,
                           capture_output=True, text=True).stdout
     for line in said.splitlines():
@@ -81,7 +81,7 @@ def planned(program, suite, out):
 
 
 def stages_of(method, settings, repetition):
-    """The recursive octree builds in 8/10 of the time of the other; runs scatter by 1 %."""
+    """The recursive octree builds in 8/10 of the time of the searching one; runs scatter by 1 %."""
     particles, speed = float(settings.get("particles", 100)), float(settings.get("speed", 20))
     scatter = 1 + 0.01 * ((repetition * 7 + len(method)) % 5 - 2) / 2
     build = {"octree_recursive": 0.8, "octree_search": 1.0}.get(method, 0)
@@ -97,7 +97,7 @@ def gaps_of(speed, seed):
 
 
 def flip_of(row, settings):
-    """The octree with levels=2 at speed 40 is the worst of all, with seed 4."""
+    """The octree with levels=2 at speed 40 and seed 4 has the largest error."""
     return 0.5 if settings.get("levels") == "2" and settings["speed"] == "40" and row["seed"] == 4 else row["flip"]
 
 
@@ -118,7 +118,7 @@ def write_run(folder, row, settings, warnings=()):
 
 
 def write_others(folder):
-    """Runs of no suite, one of them failed, with a column of the future and loads that are easily rounded."""
+    """Runs outside any suite, one of them failed, with an unknown column and loads that rounding would change."""
     for particles in (25, 125, 333):
         ms = 5 + particles / 100
         write_run(folder, {"run_id": f"odd-{particles}", "status": "done", "reason": "", "method": "billboard", "scene": EVIL,
@@ -129,12 +129,12 @@ def write_others(folder):
 
 
 def write(program, folder, suites):
-    """The folder with summary.csv; gives the rows of it."""
+    """Writes the folder with summary.csv and returns its rows."""
     write_others(folder)
     rows = []
     for suite in suites:
         for run_id, method, settings, repetition in planned(program, suite, folder):
-            if any(row["run_id"] == run_id for row in rows):  # a null run that two suites share
+            if any(row["run_id"] == run_id for row in rows):  # a run of the null method that two suites share
                 continue
             seed = int(settings.pop("seed", 1))
             stages = stages_of(method, settings, repetition)
@@ -170,7 +170,7 @@ def write(program, folder, suites):
 
 
 def rewrite_runs(folder, rows):
-    """The runs of these rows, with these numbers."""
+    """Writes the numbers of these rows to the files of their runs."""
     for row in rows:
         file = os.path.join(folder, "runs", row["run_id"], "run.json")
         with open(file, encoding="utf-8") as stream:

@@ -1,7 +1,7 @@
-"""Results folders of several machines without any measurement: times by formula, provenance made up.
+"""Makes results folders of several machines without measurements: times from formulas, made-up provenance.
 
-A machine is a dictionary: `fog`, the frame time of the method fog in ms per 100 particles; `ratio`, that of haze to fog; and what overrides
-the provenance. Both drift together by 5 % a repetition, and haze scatters by 1 % around its ratio, in its logarithm.
+A machine is a dictionary: `fog`, the frame time of the method fog in ms per 100 particles; `ratio`, the ratio of haze to fog; and
+fields that override the provenance. Both drift together by 5 % per repetition; the logarithm of the ratio scatters by 1 %.
 """
 
 import json
@@ -13,7 +13,7 @@ LOADS = (100, 200, 400)
 REPETITIONS = 6
 PROVENANCE = {"cpu": "Made-up CPU at 3 GHz", "cores": 8, "ram_bytes": 17179869184, "governor": "performance", "kernel": "6.1.0-30-amd64",
               "virtual_machine": False, "gl_vendor": "Made Up Corporation", "gl_renderer": "Made-up GPU 4000", "gl_version": "4.6 driver 550.1",
-              "gl_platform": "device", "version": "0.1.0", "git_commit": "0123456789abcdef0123", "git_dirty": False,
+              "gl_platform": "device", "version": "0.2.0", "git_commit": "0123456789abcdef0123", "git_dirty": False,
               "compiler": "GNU 12.2.0", "flags": "-O3 -march=native", "build_type": "Release", "started_utc": "2026-03-01T10:20:30Z"}
 
 

@@ -1,6 +1,6 @@
-"""A test of the report's page in a real browser: a made-up results folder, its page, and what tests do with it.
+"""Base class for tests of the report page in a real browser: a made-up results folder, its page, and shared steps.
 
-Needs Chromium (Debian: chromium-headless-shell), node and rsvg-convert; fails with a word where one is missing.
+Needs Chromium (Debian: chromium-headless-shell), node and rsvg-convert, and fails with a message if one is missing.
 """
 
 import json
@@ -71,7 +71,7 @@ class PageCase(unittest.TestCase):
         return called.stdout
 
     def open(self):
-        """Again, as it was first; gives the seconds that took."""
+        """Opens the page again in its initial state and returns the seconds that this took."""
         self.browser.resize(1400, 1000)
         self.browser.prefer("light")
         type(self).touched = False
@@ -82,14 +82,14 @@ class PageCase(unittest.TestCase):
             self.open()
 
     def touch(self):
-        """Said by a test that leaves the page other than it was."""
+        """Marks the page as modified."""
         type(self).touched = True
 
     def tearDown(self):
         self.assertEqual(self.browser.errors, [])
 
     def settled(self):
-        """A redrawing is done once nothing in the page has changed for a while."""
+        """Waits until the charts have stopped changing."""
         before = None
         for _ in range(100):
             now = self.browser.evaluate("[...document.querySelectorAll('.chart')].map(chart => chart.innerHTML.length).join()")
@@ -97,14 +97,14 @@ class PageCase(unittest.TestCase):
                 return
             before = now
             time.sleep(0.15)
-        self.fail("the charts never come to rest")
+        self.fail("the charts do not stop changing")
 
     def choose(self, chart, key, value):
         self.browser.evaluate(f"""(() => {{ const select = document.querySelector('.controls:has(+ #{chart}) select[data-key={key}]');
             select.value = '{value}'; select.dispatchEvent(new Event('change')); }})()""")
 
     def saved(self, button, name):
-        """What a button downloads."""
+        """Returns the file that a button downloads."""
         target = tempfile.mkdtemp(prefix="dustbench-saved-")
         self.addCleanup(shutil.rmtree, target)
         self.browser.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=target)

@@ -1,4 +1,4 @@
-"""The charts of the report: what they show, open on and save. report_page_test.py runs these tests."""
+"""The charts of the report: their content, initial state and saved files. report_page_test.py runs these tests."""
 
 import csv
 import io
@@ -10,7 +10,7 @@ import subprocess
 import made_folder
 import page_case
 
-# What the page builds of the chart with an id.
+# The chart with an id, as the page builds it.
 BUILT = """(() => { const read = id => JSON.parse(document.getElementById(id).textContent);
     const report = { data: read('report-data'), columns: read('report-columns'), specifications: read('report-charts') };
     return chartKit.build(report, chartKit.list(report).find(chart => chart.id === '%s')); })()"""
@@ -33,7 +33,7 @@ class ReportCharts(page_case.PageCase):
         self.assertLess(after["chart-carr2006-compare-quick-stages"], before["chart-carr2006-compare-quick-stages"])
         self.assertEqual(after["chart-carr2006-fig5-quick"], 0)
         self.assertEqual(after["chart-carr2006-fig7-quick"], before["chart-carr2006-fig7-quick"])
-        self.assertIn("switched on", self.browser.evaluate("document.querySelector('#chart-carr2006-fig5-quick').textContent"))
+        self.assertIn("current selection", self.browser.evaluate("document.querySelector('#chart-carr2006-fig5-quick').textContent"))
         self.browser.evaluate("document.querySelector('.chip[data-method=billboard]').click()")
         self.assertEqual(self.marks(), before)
 

@@ -1,4 +1,4 @@
-"""The page of several machines: made-up folders, what the program answers, and the page in Chromium. report_page_test.py runs these tests."""
+"""The page of several machines: made-up folders, the program's output, and the page in Chromium. report_page_test.py runs these tests."""
 
 import json
 import math
@@ -38,7 +38,7 @@ class MachinesCase(unittest.TestCase):
 
 
 class ReportOfSeveralMachines(MachinesCase):
-    """What the program answers."""
+    """The program's output."""
 
     @classmethod
     def setUpClass(cls):
@@ -84,7 +84,7 @@ class ReportOfSeveralMachines(MachinesCase):
     def test_labels_name_the_machines(self):
         data = self.data_of(self.page_of(self.lab, self.attic, "--label", "new", "--label", "old one"))
         self.assertEqual([machine["label"] for machine in data["machines"]], ["new", "old one"])
-        for labels, said in ((["--label", "x"], "got 1 for 2 folders"), (["--label", "x", "--label", "x"], "expected labels that differ")):
+        for labels, said in ((["--label", "x"], "got 1 for 2 folders"), (["--label", "x", "--label", "x"], "expected different labels")):
             called = report(self.lab, self.attic, *labels)
             self.assertEqual(called.returncode, 3)
             self.assertIn(said, called.stderr)
@@ -93,10 +93,10 @@ class ReportOfSeveralMachines(MachinesCase):
         again = self.machine("again", LAB | {"started_utc": "2026-03-02T00:00:00Z"})
         called = report(self.lab, again, "--text")
         self.assertEqual(called.returncode, 0)
-        self.assertIn("again and lab are the same machine, or two that are alike", called.stdout)
+        self.assertIn("again and lab are the same machine, or two identical ones", called.stdout)
         called = report(self.lab, os.path.join(self.lab, "..", "lab"))
         self.assertEqual(called.returncode, 3)
-        self.assertIn("got the same folder twice", called.stderr)
+        self.assertIn("given more than once", called.stderr)
 
     def test_a_missing_cell_is_named(self):
         less = self.machine("less", ATTIC, loads=(100, 200))
@@ -113,7 +113,7 @@ class ReportOfSeveralMachines(MachinesCase):
         out = os.path.join(self.place, "never")
         called = report(self.lab, large, "--out", out)
         self.assertEqual(called.returncode, 6)
-        self.assertIn("not comparable: size: 320x240 on lab; 640x480 on large\nnot comparable: no cell is done on two machines\n", called.stderr)
+        self.assertIn("not comparable: size: 320x240 on lab; 640x480 on large\nnot comparable: no configuration was measured on two machines\n", called.stderr)
         self.assertFalse(os.path.exists(out))
         data = self.data_of(self.page_of(self.lab, large, self.attic))
         self.assertEqual(data["remarks"]["apart"], ["size: 320x240 on attic and lab; 640x480 on large"])
@@ -142,13 +142,13 @@ class ReportOfSeveralMachines(MachinesCase):
             self.assertIn(option, called.stderr)
         called = report(self.lab, "--label", "x")
         self.assertEqual(called.returncode, 3)
-        self.assertIn("--label: got it for one folder", called.stderr)
+        self.assertIn("--label: applies only to several folders", called.stderr)
         called = report(self.lab, self.attic, "--out", self.lab)
         self.assertEqual(called.returncode, 3)
         self.assertFalse(os.path.exists(os.path.join(self.lab, "index.html")))
 
     def test_claims_stand_side_by_side(self):
-        """Real runs of a paper of seconds, and a copy as another machine, on which more particles make fewer billboards."""
+        """Real runs of a paper that takes seconds, and a copy as another machine, on which more particles give fewer billboards."""
         data = os.path.join(self.place, "data")
         shutil.copytree(os.path.join(page_case.ROOT, "data"), data)
         for name, text in made_folder.TINY_PAPER.items():
@@ -175,14 +175,14 @@ class ReportOfSeveralMachines(MachinesCase):
         with open(out, encoding="utf-8") as stream:
             [claim] = self.data_of(stream.read())["claims"]
         self.assertEqual((claim["id"], claim["agreement"]), ("T1", "open"))
-        # Refuted there, but the control, which is refuted as well, does not turn it round.
+        # Refuted there, but its only control expects a refutation too, so the claim is untestable.
         self.assertEqual([own["verdict"] for own in claim["folders"]], ["confirmed", "untestable"])
         self.assertEqual([own["verdictText"] for own in claim["folders"]], ["confirmed on this device", "untestable"])
         said = subprocess.run([page_case.PROGRAM, "report", here, there, "--text"], capture_output=True, text=True, env=environment).stdout
         self.assertRegex(said, r"tiny +T1 +confirmed on this device +untestable +open")
 
     def test_one_folder_has_the_page_of_one_folder(self):
-        """Letter for letter: the template with these files and nothing else."""
+        """The page is exactly the template with these files and nothing else."""
         called = report(self.lab)
         self.addCleanup(os.remove, os.path.join(self.lab, "index.html"))
         self.assertEqual((called.returncode, called.stdout), (0, os.path.join(self.lab, "index.html") + "\n"))
@@ -206,7 +206,7 @@ class ReportOfSeveralMachines(MachinesCase):
         data = between('id="report-data">', "</script>")
         self.assertEqual(set(json.loads(data)), {"claims", "experiments", "facts", "files", "folder", "frames", "framesLeftOut", "heat", "linkedPictures", "machines",
                                                  "methods", "notDone", "papers", "pictures", "problems", "root", "runs", "tablesOnly", "version", "warnings", "written"})
-        # Vega and its licence are Debian's.
+        # Vega and its licence come from Debian.
         parts = {"title": "dustbench: lab", "style": text("report", "page.css"), "columns": text("report", "columns.json"), "charts": "{" + charts + "}",
                  "data": data, "schema": escaped(text("SCHEMA.md")), "metrics": escaped(text("METRICS.md")),
                  "chart-script": "".join(text("report", f"{name}.js") for name in scripts[0]), "page-script": "".join(text("report", f"{name}.js") for name in scripts[1]),
@@ -219,7 +219,7 @@ class ReportOfSeveralMachines(MachinesCase):
 
 
 class PageOfSeveralMachines(MachinesCase):
-    """What a reader sees."""
+    """The page as a reader sees it."""
 
     @classmethod
     def setUpClass(cls):
@@ -279,7 +279,7 @@ class PageOfSeveralMachines(MachinesCase):
         self.assertEqual(rows["warnings"], ["none", "the machine is busy (36 runs)", "none"])
         self.assertEqual(rows["memory"], ["16.0 GiB"] * 3)
         said = self.texts(".problems")[0]
-        for part in ("commit: 0123456789ab on cellar and lab; fedcba987654 on attic", "a software renderer on attic", "2 cells are not done on every machine"):
+        for part in ("commit: 0123456789ab on cellar and lab; fedcba987654 on attic", "a software renderer on attic", "2 configurations are missing on some machines"):
             self.assertIn(part, said)
         self.assertEqual(self.texts("#missing tbody td:first-child"), ["fog particles=400", "haze particles=400"])
 

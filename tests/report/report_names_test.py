@@ -1,4 +1,4 @@
-"""The page of runs whose names are those of properties that every object has. report_page_test.py runs these tests."""
+"""The page of runs with names of properties that every JavaScript object has. report_page_test.py runs these tests."""
 
 import made_folder
 import page_case

@@ -23,7 +23,7 @@ from report_words_test import ReportWords  # noqa: F401
 
 class ReportPage(page_case.PageCase):
     def test_opens_quickly_without_a_word_in_the_console(self):
-        # The best of three: a machine that is busy otherwise is not what is tested.
+        # The best of three, so that a busy machine does not fail the test.
         self.assertLess(min(self.open() for _ in range(3)), 2)
         self.assertEqual(self.browser.errors, [])
         self.assertTrue(self.browser.evaluate("document.title").startswith("David N. Carr, Jim Geyer (2006): Variants of"))
@@ -58,8 +58,8 @@ class ReportPage(page_case.PageCase):
         self.assertTrue(self.browser.evaluate("document.getElementById('title').textContent").startswith("Variants of a New Volumetric Model"))
         trust = self.browser.evaluate("document.querySelector('.trust').innerText")
         count = len(self.rows)
-        for part in ("quick form", "5 seeds, 6 repetitions", f"{count} of {count + 4} runs with warnings", "software renderer: llvmpipe",
-                     f"1 of {count + 4} runs are not done"):
+        for part in ("quick run", "5 seeds, 6 repetitions", f"{count} of {count + 4} runs with warnings", "software renderer: llvmpipe",
+                     f"1 of {count + 4} runs not completed"):
             self.assertIn(part, trust)
         answers = self.browser.evaluate("document.querySelector('.answers').textContent")
         self.assertIn("octree_recursive has a shorter build time than octree_search", answers)
@@ -72,7 +72,7 @@ class ReportPage(page_case.PageCase):
             self.assertIn(part, said)
         ticks = self.browser.evaluate("[...document.querySelectorAll('[data-claim=R2a] .claim-range text')].map(text => text.textContent)")
         self.assertGreaterEqual(len(ticks), 2, ticks)
-        # Its runs open below it, over the whole width.
+        # The list of its runs opens below it, over the full width.
         self.touch()
         self.browser.evaluate("[...document.querySelectorAll('[data-claim=R2a] details')].at(-1).open = true")
         runs, claim = self.browser.evaluate("""['[data-claim=R2a] .runs', '[data-claim=R2a]'].map(what => document.querySelector(what).clientWidth)""")
@@ -90,7 +90,7 @@ class ReportPage(page_case.PageCase):
             self.assertEqual(rates, sorted(rates, reverse=direction < 0))
         self.browser.evaluate("document.querySelector('#overview [data-key=world]').click()")
         particles = [int(row[1].split()[1].strip(",")) for row in self.browser.evaluate(rows) if row[1].startswith("particles")]
-        self.assertEqual(particles, sorted(particles), "numbers in texts are numbers")
+        self.assertEqual(particles, sorted(particles), "numbers in texts must sort as numbers")
         self.browser.evaluate("(() => { const filter = document.querySelector('.filter'); filter.value = 'BILLBOARD speed 40'; filter.dispatchEvent(new Event('input')); })()")
         kept = self.browser.evaluate(rows)
         self.assertTrue(0 < len(kept) < len(all_rows))
@@ -211,7 +211,7 @@ class ReportPage(page_case.PageCase):
         full = reproduce("--full").stderr
         self.assertRegex(full.partition("run 1 of 2")[0], r"estimate: \d+ s for 2 runs")
         self.assertRegex(full, r"run 1 of 2: .*; about \d+ s left")
-        # What is left to do is estimated, which is nothing now.
+        # The estimate covers the remaining runs, and now there are none.
         self.assertIn("estimate: 0 s for 0 runs", reproduce("--full").stderr)
         called = reproduce("--quick")
         self.assertNotIn("estimate", called.stderr)
@@ -222,17 +222,17 @@ class ReportPage(page_case.PageCase):
         self.assertEqual(set(marks), {"chart-tiny-loads", "chart-tiny-loads-stages", "chart-frames"})
         self.assertTrue(all(marks.values()), marks)
         self.assertIn("✓ confirmed", self.browser.evaluate("document.getElementById('claims').textContent"))
-        self.assertRegex(self.browser.evaluate("document.getElementById('claims').textContent"), r"refuted, as known \(1\.\d+×: for each particle there is one\)")
+        self.assertRegex(self.browser.evaluate("document.getElementById('claims').textContent"), r"refuted, as expected \(1\.\d+×: for each particle there is one\)")
         self.assertTrue(self.browser.evaluate("[...document.querySelectorAll('.picture-stage img')].every(image => image.naturalWidth === 96)"))
 
     def test_reproducing_all_papers_ends_with_an_index_of_them(self):
-        # A copy of the program beside data with two papers of seconds.
+        # A copy of the program with data of two papers that take seconds.
         place = tempfile.mkdtemp(prefix="dustbench-papers-")
         self.addCleanup(shutil.rmtree, place)
         program = os.path.join(place, "build", "release", "dustbench")
         os.makedirs(os.path.dirname(program))
         shutil.copy(page_case.PROGRAM, program)
-        # Libraries that are loaded at run time lie beside it.
+        # Libraries that are loaded at run time are next to the program.
         for library in glob.glob(os.path.join(os.path.dirname(page_case.PROGRAM), "libdustbench_*.so")):
             shutil.copy(library, os.path.dirname(program))
         os.symlink(os.path.join(page_case.ROOT, "reports"), os.path.join(place, "reports"))
@@ -265,7 +265,7 @@ class ReportPage(page_case.PageCase):
             self.assertIn("2 of 2", row)
         for link in self.browser.evaluate("[...document.querySelectorAll('tbody a')].map(link => link.getAttribute('href'))"):
             self.assertTrue(os.path.exists(os.path.join(out, link)), link)
-        # A page of somebody else is noticed before the first run.
+        # A page that dustbench did not write is detected before the first run.
         with open(index, "w", encoding="utf-8") as stream:
             stream.write("<html>my garden</html>")
         shutil.rmtree(os.path.join(out, "tiny"))

@@ -1,4 +1,4 @@
-"""Published numbers on the charts, captions, and the report of tables alone. report_page_test.py runs these tests."""
+"""Published numbers on the charts, captions, and the report from only tables. report_page_test.py runs these tests."""
 
 import json
 import math
@@ -11,7 +11,7 @@ import tempfile
 import made_folder
 import page_case
 
-# A made-up paper: two series of two methods against a load, with times in ms where the paper has frames per second; and bars with a band.
+# A made-up paper: two series of two methods against a load, with times in ms for the paper's frames per second; and bars with a band.
 PAPER = {
     "paper.toml": """id = "mud"
 title = "Mud"
@@ -135,7 +135,7 @@ class ReportPublished(page_case.PageCase):
         looks = self.browser.evaluate("""['none', 'radix'].map(sort => ['point', 'publishedPoint'].map(name => {
             const groups = [...document.querySelectorAll('#chart-mud-loads .mark-symbol.role-mark')].filter(group => group.classList.contains(name));
             const all = [...groups[0].querySelectorAll('path')];
-            const index = sort === 'none' ? 0 : name === 'point' ? 1 : all.length - 1;  // loads first; the paper's as in its file
+            const index = sort === 'none' ? 0 : name === 'point' ? 1 : all.length - 1;  // loads first; the paper's points as in its file
             const path = all[index];
             return [path.getAttribute('stroke'), path.getAttribute('fill'), path.getAttribute('d').replace(/[\\d.,-]+/g, '')];
         }))""")
@@ -168,7 +168,7 @@ class ReportPublished(page_case.PageCase):
             self.assertIn(part, svg)
         with open(self.report("--chart", "mud-loads-stages").strip(), encoding="utf-8") as stream:
             self.assertIn("2 cores, llvmpipe (made up)", stream.read())
-        self.assertLess(float(re.search(r'<svg [^>]*width="([0-9.]+)"', svg).group(1)), 960, "a caption makes no chart wider")
+        self.assertLess(float(re.search(r'<svg [^>]*width="([0-9.]+)"', svg).group(1)), 960, "a caption must not widen the chart")
 
     def test_paper_has_marks_and_caption_too(self):
         self.touch()

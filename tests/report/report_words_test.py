@@ -1,4 +1,4 @@
-"""What the page says of numbers, in sentences, scales and tables. report_page_test.py runs these tests."""
+"""Numbers on the page, in sentences, scales and tables. report_page_test.py runs these tests."""
 
 import json
 
@@ -7,7 +7,7 @@ import page_case
 
 REPORT = """({ data: JSON.parse(document.getElementById('report-data').textContent), columns: JSON.parse(document.getElementById('report-columns').textContent),
     specifications: JSON.parse(document.getElementById('report-charts').textContent) })"""
-METHODS = {"null_method": 40, "billboard": 6, "octree_search": 30}  # frames of their run
+METHODS = {"null_method": 40, "billboard": 6, "octree_search": 30}  # number of frames of the method's run
 
 
 class ReportWords(page_case.PageCase):
@@ -21,7 +21,7 @@ class ReportWords(page_case.PageCase):
             with open(f"{place}/frames.csv", "w", encoding="utf-8") as stream:
                 stream.write("frame,time_s,frame_ms\n" + "".join(f"{i},{i / 60},{10 + i % 3}\n" for i in range(frames)))
             rows.append(row)
-        # Of pictures alone: no number of the overview is known.
+        # A run with pictures only, without numbers for the overview.
         made_folder.write_run(cls.folder, {"run_id": "bare", "status": "done", "reason": "", "method": "relief", "scene": "plain", "drive": "straight",
                                            "repetition": 1, "frames": 2, "gpu_bytes": 1e6}, {})
         return rows
@@ -61,7 +61,7 @@ class ReportWords(page_case.PageCase):
         self.assertTrue(len(drawn) > 1 and all(text.endswith("%") for text in drawn), drawn)
 
     def test_without_chance_an_interval_is_named(self):
-        for low, text in ((1.9, "the interval is that of the fit"), (2, "no interval")):
+        for low, text in ((1.9, "the interval comes from the fit"), (2, "no interval")):
             self.assertIn(text, self.said(f"words.testedOf({{ measured: 2, low: {low}, high: 2, over: '', cells: [], rule: {{}} }})"))
 
     def test_a_control_has_the_unit_and_the_digits_of_its_claim(self):
@@ -69,9 +69,9 @@ class ReportWords(page_case.PageCase):
         control = {"why": "known", "rule": rule | {"column": "c"}, "known": "refuted", "verdict": "refuted", "measured": 0.90744}
         claim = {"min": 0.9073, "max": None, "control": "turned", "controls": [control, control | {"verdict": "confirmed", "measured": 1e-7}, control | {"verdict": "not-tested", "measured": None}]}
         self.assertEqual(self.said(f"words.controlsOf({REPORT}, {json.dumps(claim)})"),
-                         "refuted, as known (90.74\u00a0% of all: known); confirmed, known: refuted (1.0·10⁻⁵\u00a0% of all: known); not run: known")
+                         "refuted, as expected (90.74\u00a0% of all: known); confirmed, expected: refuted (1.0·10⁻⁵\u00a0% of all: known); not run: known")
         self.assertEqual(self.said(f"words.quantityOf({REPORT}, {{ rule: {json.dumps(rule)} }})"), ["kept (experiment x)", "share of all"])
-        self.assertEqual(self.said(f"words.quantityOf({REPORT}, {{ rule: {json.dumps(rule | {'column': 'a|b'})} }})[0]"), "kept, mean of 2 cells (experiment x)")
+        self.assertEqual(self.said(f"words.quantityOf({REPORT}, {{ rule: {json.dumps(rule | {'column': 'a|b'})} }})[0]"), "kept, mean of 2 values (experiment x)")
 
     def test_a_comparison_tells_of_the_side_that_is_faster(self):
         cell = {"pairs": 6, "ratio": 1.25, "low": 1.2, "high": 1.3, "verdict": "SLOWER"}
@@ -117,7 +117,7 @@ class ReportWords(page_case.PageCase):
         self.assertEqual((method, panels), ("octree_search", 2))
         self.assertTrue(note.startswith("octree_search"), note)
         short = self.said(f"{REPORT}.data.frames.find(item => item.frames === 6).run")
-        self.assertEqual(self.said(f"{built}({short})")[2], 1, "six frames are no distribution")
+        self.assertEqual(self.said(f"{built}({short})")[2], 1, "six frames are too few for a distribution")
 
     def test_pictures_of_equal_cost_have_no_chart(self):
         self.assertEqual(self.said(f"chartKit.list({REPORT}).filter(chart => chart.kind === 'quality')"), [])

@@ -38,11 +38,11 @@ using Values = std::map<std::string, std::string>;
 constexpr int width = 32, height = 24;
 constexpr int frames = 2;
 
-/// Values that decide about shaders. A choice or a switch is gone through by itself.
+/// Parameter values that select shaders. All values of choices and switches are tried without being listed here.
 const std::map<std::string, std::vector<std::string>> decidingValues{
     {"shadow_cells", {"0", "2"}},
     {"vorticity", {"0", "2"}},
-    {"scheme", {"ours"}},  // the demo needs a box that stands still: below
+    {"scheme", {"ours"}},  // the demo needs a fixed box, see below
     {"at",
      {"0s:render.part=points", "0s:render.part=points;0s:render.round=on",
       "0s:render.part=points;0s:render.blend=alpha", "0s:render.part=lines",
@@ -55,15 +55,15 @@ const std::map<std::string, std::vector<std::string>> decidingValues{
       "0s:render.part=aa_sprites;0s:render.by=accumulation", "0s:render.part=objects",
       "0s:render.part=objects;0s:render.along_velocity=on", "0s:render.blend=additive"}}};
 
-/// So small that a combination takes milliseconds; for the methods that have such a parameter.
+/// Small values, so that a combination takes milliseconds, for methods with such parameters.
 const Values small{{"grid", "16x16x16"}, {"shape_particles", "300"}, {"depth", "5"}};
 
-/// Parameters that decide about the same shaders: all of their combinations are gone through, with others held fixed.
+/// Parameters that select the same shaders: all their combinations are tried, with other parameters fixed.
 struct Product {
     std::string method;
     Values fixed;
     std::vector<std::string> parameters;
-    bool showsDust = false;  ///< then the dust's colours decide as well
+    bool showsDust = false;  ///< then the dust's colours also select shaders
 };
 const std::vector<Product> products{
     {"billboard", {}, {"puff", "soft", "facing"}, true},
@@ -90,7 +90,7 @@ std::vector<std::string> valuesOf(const Parameter& parameter) {
     return {};
 }
 
-/// Everything that a method is shown, at one moment.
+/// The complete input of a method at one moment.
 class Stage {
  public:
     Stage(gpu::Device& device, const std::string& scene)
@@ -106,7 +106,7 @@ class Stage {
 
     void show(const MethodInfo& info, const Values& values, const particles::ParticleStore& dust) {
         if (info.cannotTake && !info.cannotTake(world_.scene()).empty())
-            throw InputError(info.id + " cannot take the scene");
+            throw InputError(info.id + " cannot show the scene");
         ParameterValues given(info.parameters);
         for (const auto& [name, value] : small)
             if (info.parameters.find(name)) given.set(name, value);
@@ -125,7 +125,7 @@ class Stage {
         draw::Composite(device_, width, height).draw(opaque_.colour(), layer.colour());
     }
 
-    /// Before the camera, with a colour for each or one for all.
+    /// Particles in front of the camera, each with its colour or all with one.
     void fill(particles::ParticleStore& dust, bool oneColour) const {
         const glm::dvec3 eye = world_.view(width, height).camera.eye, target = world_.view(width, height).camera.target;
         dust.resize(20);
@@ -141,7 +141,7 @@ class Stage {
     }
 
  private:
-    /// The scene without its vehicle or its solids, which no file of ours leaves out.
+    /// The scene without its vehicle or its solids, which all our files contain.
     void drawBare(bool vehicle, bool solids, bool lit) {
         scene::Scene bare = world_.scene();
         if (!vehicle) bare.vehicle.reset();
@@ -158,7 +158,7 @@ class Stage {
     draw::OpaqueScene opaque_;
 };
 
-/// All scenes; what does not fit the first is shown in the next: a fluid may need a solid that only one has.
+/// Tries the scenes in order, because a fluid may need a solid that only one of them has.
 class Stages {
  public:
     explicit Stages(gpu::Device& device) {
@@ -169,7 +169,7 @@ class Stages {
     }
 
     void show(const MethodInfo& info, const Values& values) { show(info, values, plain_); }
-    /// The dust's particles have a colour each.
+    /// True if each dust particle has its own colour.
     void showColours(const MethodInfo& info, const Values& values) { show(info, values, coloured_); }
 
  private:
@@ -180,7 +180,7 @@ class Stages {
             } catch (const InputError& error) {
                 reasons += std::string(error.what()) + "\n";
             }
-        throw std::runtime_error(info.id + " is drawn in no scene:\n" + reasons);
+        throw std::runtime_error(info.id + " cannot be drawn in any scene:\n" + reasons);
     }
 
     std::vector<std::unique_ptr<Stage>> stages_;
@@ -198,7 +198,7 @@ void forEachCombination(const MethodInfo& info, const Values& fixed, std::span<c
     }
 }
 
-/// What a method shows of its grid depends on its flow; a grid filled by hand is drawn whatever the settings.
+/// The grid that a method draws depends on its flow; a grid filled here is drawn with any settings.
 void drawGrids(gpu::Device& device) {
     using namespace raycast;
     scene::View view;
@@ -244,7 +244,7 @@ void drawGrids(gpu::Device& device) {
             }
 }
 
-/// Smoke, and smoke with fire, that is kept sparse and so large that every camera is in it.
+/// Sparse smoke, with and without fire, so large that it contains every camera.
 void drawSparse(Stages& stages) {
     const auto info = std::ranges::find(methods(), "volume", &MethodInfo::id);
     if (info == methods().end()) return;
@@ -270,7 +270,7 @@ void drawSparse(Stages& stages) {
     std::filesystem::remove_all(folder);
 }
 
-/// Experiments with shaders of their own.
+/// Experiments with their own shaders.
 void runExperiments(gpu::Device& device) {
     class Context final : public ExperimentContext {
      public:
@@ -281,7 +281,7 @@ void runExperiments(gpu::Device& device) {
         [[nodiscard]] std::unique_ptr<ExperimentWorld> world(const std::string&,
                                                              const std::map<std::string, std::string>&, int,
                                                              int) override {
-            throw std::logic_error("an experiment with shaders asked for a world");
+            throw std::logic_error("an experiment with shaders requested a world");
         }
 
      private:

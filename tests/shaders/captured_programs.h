@@ -1,5 +1,5 @@
-// Every program that the methods and the harness give to OpenGL, with every set of definitions that parameters, scenes
-// and dust lead to.
+// Captures every program that methods and harness pass to OpenGL, with every set of definitions that results from
+// parameters, scenes and dust.
 //
 // Threads: the OpenGL thread's.
 #pragma once
@@ -11,15 +11,15 @@
 namespace dustbench::shaders {
 
 struct CapturedShader {
-    std::string file;    ///< `draw/lines.vert`, as errors name it
-    std::string source;  ///< the whole text that OpenGL gets
+    std::string file;    ///< `draw/lines.vert`, as in error messages
+    std::string source;  ///< the complete text passed to OpenGL
     friend auto operator<=>(const CapturedShader&, const CapturedShader&) = default;
 };
 
 /// The stages of a program, in order.
 using CapturedProgram = std::vector<CapturedShader>;
 
-/// Draws with every method under many combinations of its parameters. Takes some seconds; the result is kept.
+/// Draws with every method and many combinations of its parameters. Takes some seconds; the result is cached.
 [[nodiscard]] const std::set<CapturedProgram>& capturedPrograms();
 
 }  // namespace dustbench::shaders

@@ -1,5 +1,5 @@
-// Every shader with every set of definitions, held against the language's own reference compiler: Mesa forgives what
-// other drivers do not.
+// Compiles every shader with every set of definitions with the reference compiler, because Mesa accepts code that other
+// drivers refuse.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -19,7 +19,7 @@ namespace dustbench::shaders {
 namespace {
 namespace fs = std::filesystem;
 
-/// The shader files of the tree and their texts, the shared pieces (.glsl) as well.
+/// The shader files of the tree and their texts, including shared parts (.glsl).
 const std::map<std::string, std::string>& shaderFiles() {
     static const std::map<std::string, std::string> all = [] {
         const std::set<std::string> kinds{".vert", ".frag", ".comp", ".glsl"};
@@ -37,7 +37,7 @@ const std::map<std::string, std::string>& shaderFiles() {
     return all;
 }
 
-/// The captured sources that a file is part of.
+/// The captured sources that contain a file.
 std::set<std::string> sourcesWith(const std::string& text) {
     std::set<std::string> sources;
     for (const CapturedProgram& program : capturedPrograms())
@@ -53,8 +53,7 @@ std::set<std::string> namesIn(const std::string& text, const std::string& patter
     return names;
 }
 
-/// What the definition line of a source says of a name: its value with a space before it, or nothing where there is no
-/// such line.
+/// The value of a name in a source's definition lines, with a space before it; nothing if it is not defined.
 std::string valueOf(const std::string& name, const std::string& source) {
     const std::string line = "\n#define " + name + " ";
     const std::size_t at = source.find(line);
@@ -68,7 +67,7 @@ struct Validated {
     std::string output;
 };
 
-/// The program's stages and how they fit together. The files carry names that a person finds again.
+/// Compiles and links the stages of a program. The files have recognisable names.
 Validated validate(const CapturedProgram& program, const fs::path& folder) {
     fs::create_directories(folder);
     std::string command = "glslangValidator -l";
@@ -93,11 +92,11 @@ TEST(Shaders, AreAllGivenToOpenGl) {
     ASSERT_GT(shaderFiles().size(), 40u);
     for (const auto& [file, text] : shaderFiles())
         EXPECT_FALSE(sourcesWith(text).empty())
-            << file << " is never compiled: captured_programs.cpp must draw with it";
+            << file << " is never compiled: make captured_programs.cpp draw with it";
 }
 
 TEST(Shaders, AreGivenWithAndWithoutEachDefinitionThatTheyAskFor) {
-    std::set<std::string> ownNames;  // which the files define themselves
+    std::set<std::string> ownNames;  // defined by the files themselves
     for (const auto& [file, text] : shaderFiles()) ownNames.merge(namesIn(text, R"(#define\s+(\w+))"));
     for (const auto& [file, text] : shaderFiles()) {
         const std::set<std::string> sources = sourcesWith(text);
@@ -108,7 +107,7 @@ TEST(Shaders, AreGivenWithAndWithoutEachDefinitionThatTheyAskFor) {
                 std::set<std::string> values;
                 for (const std::string& source : sources) values.insert(valueOf(name, source));
                 EXPECT_GE(values.size(), 2u)
-                    << file << ": " << name << " is always the same: captured_programs.cpp must draw with another";
+                    << file << ": " << name << " never changes: make captured_programs.cpp draw with another value";
             }
     }
 }

@@ -1,10 +1,10 @@
 #!/bin/bash
-# A suite on a single-node Slurm of our own gives, merged, the rows that one machine gives.
+# A suite on a temporary single-node Slurm gives, after merging, the same rows as on one machine.
 #
 #   suite_on_slurm.sh PROGRAM WORK      77: skipped, with the reason
 #
-# Everything is in the folder WORK and runs as the present user: key, sockets, configuration, logs. Nothing of it is left
-# running. Slurm's own services, where there are any, are not touched.
+# Everything is in the folder WORK and runs as the current user: key, sockets, configuration, logs. All processes are stopped at
+# the end. Existing Slurm services are not touched.
 set -euo pipefail
 program="$(realpath "$1")"
 work="$2"
@@ -13,7 +13,7 @@ PATH="$PATH:/usr/sbin:/sbin"
 for tool in munged mungekey slurmctld slurmd sbatch sinfo scontrol; do
     if ! command -v "$tool" > /dev/null; then
         echo "skipped: $tool is not installed (.ci/install slurm)"
-        # Where the change is judged, Slurm is installed: not finding it is a mistake.
+        # In CI, Slurm is installed: not finding it is an error.
         [[ ${CI:-} != true ]] || exit 1
         exit 77
     fi
@@ -21,7 +21,7 @@ done
 rm -rf "$work"
 mkdir -p "$work"
 work="$(realpath "$work")"
-# Sockets have short names, so they are not below a build folder.
+# Socket paths must be short, so they are not below the build folder.
 sockets="$(mktemp -d)"
 chmod 755 "$sockets"
 mkdir -p "$work"/{state,spool,logs}
@@ -35,7 +35,7 @@ finish() {
             [[ ! -s $log ]] || { echo "== $log"; tail -n 40 "$log"; }
         done
     fi
-    # Jobs outlive slurmd, so they go first.
+    # Jobs outlive slurmd, so they are stopped first.
     if [[ -n ${array:-} ]] && scancel "$array" "$merging" 2> /dev/null; then
         for ((i = 0; i < 100; ++i)); do
             [[ -n $(squeue --noheader 2> /dev/null) ]] || break
@@ -82,7 +82,7 @@ freePort() {
 
 # --- Slurm ---------------------------------------------------------------------------------------------------------
 mungekey --create --keyfile "$work/munge.key" 2> /dev/null
-# Each ends with this script, even where that is killed.
+# Each ends with this script, even if it is killed.
 setpriv --pdeathsig KILL munged --foreground --key-file "$work/munge.key" --socket "$sockets/munge" --pid-file "$sockets/munge.pid" \
     --seed-file "$work/munge.seed" --num-threads 2 \
     > "$work/logs/munged.out" 2>&1 &
@@ -132,7 +132,7 @@ within 30 "the node does not come up" isIdle
 echo "Slurm is up after $SECONDS s"
 
 # --- the suite -----------------------------------------------------------------------------------------------------
-# Names with blanks and quotes, so that the script's own quoting is tried as well.
+# Names with blanks and quotes, to test the script's quoting.
 mkdir -p "$work/jobs" "$work/it's here"
 cat > "$work/it's here/two worlds.toml" << END
 title = "Two methods in three worlds"
@@ -160,19 +160,19 @@ for task in 1 2; do
     [[ $state == JobState=COMPLETED ]] || fail "shard $task ended as $state"
 done
 [[ $(scontrol --oneliner show job "$merging" | grep -oE 'JobState=[A-Z]+') == JobState=COMPLETED ]] ||
-    fail "the merge did not end well"
+    fail "the merge failed"
 echo "merged after $SECONDS s"
 
-# --- what came out -------------------------------------------------------------------------------------------------
+# --- results -------------------------------------------------------------------------------------------------------
 cd "$work"
 ids() { cut -d, -f1 "$1" | tail -n +2 | sort; }
 "${suite[@]}" --out "$out" --dry-run | awk '{ print $1 }' | sort > expected
 (($(wc -l < expected) == 9)) || fail "the plan has $(wc -l < expected) runs, expected 9"
-ids "$out/summary.csv" | diff expected - || fail "other rows than those of the plan"
+ids "$out/summary.csv" | diff expected - || fail "the rows differ from those of the plan"
 for shard in 1 2; do
-    (($(ids "$out/shards/$shard-of-2/summary.csv" | wc -l) > 0)) || fail "shard $shard had nothing to do"
+    (($(ids "$out/shards/$shard-of-2/summary.csv" | wc -l) > 0)) || fail "shard $shard has no runs"
 done
 "${suite[@]}" --out "$out" > table 2> again
-grep -q "9 existing" again || fail "the merged folder is not taken as complete: $(cat again)"
+grep -q "9 existing" again || fail "the merged folder is not complete: $(cat again)"
 grep -q "Two methods in three worlds" table || fail "no table of the merged folder"
-echo "all is well after $SECONDS s"
+echo "passed after $SECONDS s"

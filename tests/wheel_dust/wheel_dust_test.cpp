@@ -1,4 +1,4 @@
-// The method of particle systems with `wheel_dust` is the shared dust: the same state, drawn as billboards are.
+// The method of particle systems with `wheel_dust` equals the shared dust: the same state, drawn like billboards.
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -1,16 +1,16 @@
 #!/bin/bash
-# The window on a display of its own, driven as a user would: it opens, drives, switches, saves and closes.
+# The window on a separate display, controlled like a user would: it opens, drives, switches, saves and closes.
 #
 #   real_window.sh PROGRAM WORK      77: skipped, with the reason
 #
-# Everything is in the folder WORK, the user's settings as well. Nothing is left running.
+# Everything is in the folder WORK, including the user's settings. All processes are stopped at the end.
 set -euo pipefail
 program="$(realpath "$1")"
 work="$2"
 
 skip() {
     echo "skipped: $*"
-    # Where the change is judged, all of it is installed: not finding it is a mistake.
+    # In CI, everything is installed: a missing tool is an error.
     [[ ${CI:-} != true ]] || exit 1
     exit 77
 }
@@ -59,7 +59,7 @@ within 30 "Xvfb does not come up" test -s display
 DISPLAY=":$(cat display)"
 export DISPLAY
 
-# Without a window manager nobody gives the keyboard to the window.
+# Without a window manager, nothing gives the keyboard focus to the window.
 focus() {
     xdotool windowfocus "$window"
     sleep 0.2
@@ -73,7 +73,7 @@ openWindow() {
     until window="$(xdotool search --onlyvisible --name '^dustbench view$' 2> /dev/null)" && [[ -n $window ]]; do
         if ! kill -0 "$viewer" 2> /dev/null; then
             grep -q "built without" view.log && skip "$(cat view.log)"
-            fail "view ends: $(cat view.log)"
+            fail "view ended: $(cat view.log)"
         fi
         ((SECONDS < end)) || fail "no window after 60 s"
         sleep 0.1
@@ -84,9 +84,9 @@ closeWindow() {
     xdotool key ctrl+q
     local status=0
     wait "$viewer" || status=$?
-    ((status == 0)) || fail "Ctrl+Q ends with $status: $(cat view.log)"
+    ((status == 0)) || fail "Ctrl+Q: exit code $status: $(cat view.log)"
     unset 'started[-1]'
-    ! grep '^dustbench' view.log || fail "view says so"
+    ! grep '^dustbench' view.log || fail "view printed messages"
 }
 # press KEY what command…: until the command succeeds; the key may come before the window listens
 press() {
@@ -129,29 +129,29 @@ press ctrl+s "Ctrl+S saves no state" hasState
 cp Xvfb_screen0 seen.xwd
 closeWindow
 grep -q '^shown = "beside"$' "$settings" || fail "the settings do not say 'beside': $(cat "$settings")"
-grep -q '^size = "1000x700"$' "$settings" || fail "the settings do not have the size: $(cat "$settings")"
+grep -q '^size = "1000x700"$' "$settings" || fail "the settings do not contain the size: $(cat "$settings")"
 echo "driven, resized and closed after $SECONDS s"
 
-# --- the drive is a drive, the state is a state, the settings are taken up --------------------------------------------
+# --- the drive and the state are valid, the settings are used ---------------------------------------------------------
 "$program" run --method null_method --drive saved/drive.csv --frames 30 --size 64x48 -P particles=300 -P preroll=0.2 \
-    --out run > run.log 2>&1 || fail "the recorded drive does not run"
+    --out run > run.log 2>&1 || fail "the recorded drive cannot be run"
 openWindow --state saved/state.toml --out "$work/again"
 hasAgain() { compgen -G "$work/again/f*.png" > /dev/null; }
 press p "P saves no picture of the state" hasAgain
-[[ $(xdotool getwindowgeometry "$window" | grep -o '[0-9]*x[0-9]*$') == 1000x700 ]] || fail "the window has not its size"
+[[ $(xdotool getwindowgeometry "$window" | grep -o '[0-9]*x[0-9]*$') == 1000x700 ]] || fail "the window does not have its size"
 closeWindow
-grep -q '^shown = "beside"$' "$settings" || fail "the view was not taken up"
+grep -q '^shown = "beside"$' "$settings" || fail "the view was not restored"
 
-# --- what is broken is one line --------------------------------------------------------------------------------------
+# --- errors are one line ---------------------------------------------------------------------------------------------
 rm -rf saved
 echo "divider = wrong" > "$settings"
 before="$(sha256sum < "$settings")"
 openWindow --method billboard "${world[@]}"
 press p "P saves no picture" hasPicture
-xdotool key h # a change of the settings
+xdotool key h # changes the settings
 sleep 0.5
 closeWindow
-[[ $(sha256sum < "$settings") == "$before" ]] || fail "broken settings were written over"
+[[ $(sha256sum < "$settings") == "$before" ]] || fail "broken settings were overwritten"
 rm "$settings"
 
 # --- adapters ------------------------------------------------------------------------------------------------------
@@ -161,6 +161,6 @@ press p "P saves no picture drawn by adapter 0" hasPicture
 closeWindow
 status=0
 "$program" view --adapter nothing "${world[@]}" > view.out 2> view.log || status=$?
-((status == 3)) || fail "an unknown adapter ends with $status, expected 3"
-(($(grep -c '^dustbench' view.log) == 1)) || fail "an unknown adapter is not one line: $(cat view.log)"
-echo "all is well after $SECONDS s"
+((status == 3)) || fail "an unknown adapter: exit code $status, expected 3"
+(($(grep -c '^dustbench' view.log) == 1)) || fail "an unknown adapter: expected one line: $(cat view.log)"
+echo "passed after $SECONDS s"

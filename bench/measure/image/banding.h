@@ -1,7 +1,7 @@
 // Banding: the error that neighbouring pixels share.
 //
 // Too few samples along a ray leave bands in a smooth volume; jittered samples turn them into noise. A mean error does
-// not tell the two apart. Averaged over a window, noise that is independent from pixel to pixel falls by the square
+// not distinguish the two. Averaged over a window, noise that is independent from pixel to pixel falls by the square
 // root of the window's pixels, and a band wider than the window stays:
 //
 //     e(p)    = mean of I − R over the pixels of M within 5×5 around p     linear light, each channel

@@ -63,7 +63,7 @@ TEST(Banding, StaysWithinTheMaskAndIsEmptyWithoutOne) {
     const Plane left = planeOf(width, height, [](int x, int) { return x < 60; });
     const Mask mask = dustMask(left, left);
     const auto outside = [](int x, int, int) { return x >= 60 ? 0.4 : 0.1; };
-    EXPECT_NEAR(bandingOf(outside, mask), 0.1, 1e-6) << "what lies beyond the mask is not averaged in";
+    EXPECT_NEAR(bandingOf(outside, mask), 0.1, 1e-6) << "pixels outside the mask must not count";
     EXPECT_EQ(banding(grey(), grey(), mask), 0);
     EXPECT_EQ(banding(grey(), grey(), dustMask(Plane(width, height), Plane(width, height))), std::nullopt);
     EXPECT_THROW((void)banding(grey(), grey(), Mask(3, 3)), InputError);

@@ -104,14 +104,14 @@ TEST(Spill, IsTheShareOfTheShownTrailThatIsNotThere) {
 }
 
 TEST(Spill, IsWhatABlanketPaysForHavingNoGaps) {
-    // A trail of 5 of 20 columns. A blanket covers all of it, and three quarters of the blanket lie outside it.
+    // A trail of 5 of 20 columns. Dust everywhere covers all of it, and three quarters of that dust are outside it.
     const Plane trail = planeOf(20, 10, [](int x, int) { return x < 5 ? 0.8 : 0.0; });
     const Plane blanket = even(20, 10, 0.8), narrow = planeOf(20, 10, [](int x, int) { return x < 2 ? 0.8 : 0.0; });
     EXPECT_EQ(gaps(blanket, trail).value, 0);
     EXPECT_EQ(spill(blanket, trail).value, 0.75);
     EXPECT_EQ(gaps(narrow, trail).value, 0.6);
     EXPECT_EQ(spill(narrow, trail).value, 0);
-    // Each is the other with the pictures exchanged.
+    // Exchanging the pictures exchanges gaps and spill.
     EXPECT_EQ(spill(trail, blanket).value, gaps(blanket, trail).value);
 }
 
@@ -127,7 +127,7 @@ TEST(PoppingSizes, AreThePartsOfPopping) {
     const PoppingBySize found = poppingBySize(from, to, *sizes, *sizes);
     EXPECT_NEAR(*found.small, 0.1, 1e-6);
     EXPECT_NEAR(*found.large, 0.3, 1e-6);
-    // Half of the pixels each: the squares of the parts add up to popping's.
+    // Half of the pixels each: the squares of the parts add up to that of popping.
     EXPECT_NEAR(*found.smallPart, 0.1 / std::sqrt(2), 1e-6);
     EXPECT_NEAR(*found.largePart, 0.3 / std::sqrt(2), 1e-6);
     const double whole = *popping(from, to).value;
@@ -135,7 +135,8 @@ TEST(PoppingSizes, AreThePartsOfPopping) {
 }
 
 TEST(PoppingSizes, WeighAPixelByTheDepthOfItsPrimitives) {
-    // Two primitives in one place: the deeper one has the pixel. Where none reaches there is neither.
+    // Two primitives in one place: the pixel belongs to the one with more depth. Pixels without primitives belong to
+    // none.
     const auto at = [](double smallDepth, double largeDepth) {
         return largeAmong(std::vector<SizedPrimitive>{{{10, 5, 3}, 0.5, smallDepth}, {{10, 5, 3}, 4, largeDepth}}, 20,
                           10);

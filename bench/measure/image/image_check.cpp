@@ -16,8 +16,8 @@ void refuse(int width, int height, std::size_t pixels, std::string_view name, st
             const IsBad& isBad) {
     if (width < 1 || height < 1 || pixels != static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
         throw InputError(
-            fmt::format("{}: got {}x{} with {} pixels, expected at least one pixel, and width times height "
-                        "of them",
+            fmt::format("{}: got {}x{} with {} pixels, expected width times height pixels, and at least "
+                        "one",
                         name, width, height, pixels));
     std::size_t bad = 0, first = 0;
     for (std::size_t i = 0; i < pixels; ++i) {
@@ -54,7 +54,7 @@ void requireOpaque(const pictures::Image& image, std::string_view name) {
 void requireSameSize(int width, int height, std::string_view name, int otherWidth, int otherHeight,
                      std::string_view otherName) {
     if (width != otherWidth || height != otherHeight)
-        throw InputError(fmt::format("images of different size: {} has {}x{}, {} has {}x{}", name, width, height,
+        throw InputError(fmt::format("images differ in size: {} has {}x{}, {} has {}x{}", name, width, height,
                                      otherName, otherWidth, otherHeight));
 }
 
@@ -64,7 +64,7 @@ void requireSameSize(const Plane& plane, std::string_view name, const Plane& oth
 
 Plane alphaOf(const pictures::Image& layer, std::string_view name) {
     requireFinite(layer, name);
-    refuse(layer.width, layer.height, layer.pixels.size(), name, "of an alpha outside 0..1", [&](std::size_t i) {
+    refuse(layer.width, layer.height, layer.pixels.size(), name, "outside alpha 0..1", [&](std::size_t i) {
         return layer.pixels[i].a < -alphaTolerance || layer.pixels[i].a > 1 + alphaTolerance;
     });
     Plane alpha(layer.width, layer.height);

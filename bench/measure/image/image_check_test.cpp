@@ -51,7 +51,7 @@ TEST(ImageCheck, RefusesAlphasThatAreNone) {
     pictures::Image layer = greyImage(3, 2);
     layer.pixels[5].a = 1.5f;
     EXPECT_EQ(inputError([&] { static_cast<void>(alphaOf(layer, "the layer")); }),
-              "the layer: 1 pixel is of an alpha outside 0..1, the first at (2, 1)");
+              "the layer: 1 pixel is outside alpha 0..1, the first at (2, 1)");
     layer.pixels[5].a = 1.0005f;
     layer.pixels[0].a = -0.0005f;
     const Plane alpha = alphaOf(layer, "the layer");
@@ -69,7 +69,7 @@ TEST(ImageCheck, RefusesImagesWithoutPixels) {
 
 TEST(ImageCheck, EveryMetricRefusesDifferentSizes) {
     const Picture a = preparePicture(greyImage(16, 12), "a.png"), b = preparePicture(greyImage(12, 16), "b.png");
-    const std::string both = "images of different size: a.png has 16x12, b.png has 12x16";
+    const std::string both = "images differ in size: a.png has 16x12, b.png has 12x16";
     EXPECT_EQ(inputError([&] { static_cast<void>(pictureError(a, b)); }), both);
     EXPECT_EQ(inputError([&] { static_cast<void>(ssim(a, b)); }), both);
     EXPECT_EQ(inputError([&] { static_cast<void>(flip(a, b)); }), both);
@@ -102,7 +102,7 @@ TEST(ImageCheck, GridsMustBeWholeFiniteAndAlike) {
     EXPECT_THAT(inputError([&] {
                     static_cast<void>(volumeError(good, {{4, 2, 1}, eight}));
                 }),
-                testing::HasSubstr("different size"));
+                testing::HasSubstr("differ in size"));
     EXPECT_THAT(inputError([&] {
                     static_cast<void>(volumeError({{3, 2, 2}, eight}, good));
                 }),

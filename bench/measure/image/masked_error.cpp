@@ -8,7 +8,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Of the differences between two pictures within a mask.
+/// Sums over the differences between two pictures within a mask.
 struct Differences {
     double squares = 0, maximum = 0;
     std::int64_t count = 0;

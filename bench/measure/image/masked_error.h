@@ -1,18 +1,17 @@
-// The errors of a picture where there is dust: a whole picture is mostly sky, which every method draws right.
+// The errors of a picture where there is dust. A whole picture is mostly sky, which every method draws correctly.
 //
 // The mask is the pixels with α > 1/255 in the method's layer or in the reference's; n is their number, M the mask.
 //
 //     psnr_mask_db     = −10 log₁₀ (Σ_M Σ_c (I − R)² / 3n)    display-encoded
 //     rmse_linear_mask = √(Σ_M Σ_c (I − R)² / 3n)             linear light
 //     error_max        = max_M max_c |I − R|                  linear light
-//     ssim_mask        = mean of the SSIM map (ssim.h) over the windows whose centre lies in M. Windows wholly inside
-//     the
-//                        picture only, so a pixel of M within 5 pixels of the picture's edge has none; a window may
-//                        reach beyond M by 5 pixels.
+//     ssim_mask        = mean of the SSIM map (ssim.h) over the windows whose centre is in M. Only windows inside the
+//                        picture count, so pixels of M within 5 pixels of the picture's edge have none. A window can
+//                        extend beyond M by 5 pixels.
 //     flip_mask        = mean of FLIP's map (flip.h) over M
 //
-// Sky added around a picture changes none of them, as long as the mask is clear of the picture's edge by the reach of
-// the filters: 5 pixels for SSIM, 0.14 of a degree for FLIP.
+// Sky added around a picture changes none of them if the distance between mask and picture edge exceeds the reach of
+// the filters: 5 pixels for SSIM, 0.14 degrees for FLIP.
 // Units: decibels; linear light. Threads: pure.
 #pragma once
 
@@ -41,8 +40,8 @@ struct MaskedError {
 /// Throws InputError if the sizes differ.
 [[nodiscard]] MaskedError maskedError(const Picture& reference, const Picture& picture, const Mask& mask);
 
-/// Mean of a metric's map over the mask. A map smaller than the mask lies in its middle, as SSIM's does. Empty if no
-/// pixel of the mask has a value.
+/// Mean of a metric's map over the mask. A map smaller than the mask, such as that of SSIM, is centred in it. Empty if
+/// no pixel of the mask has a value.
 [[nodiscard]] std::optional<double> meanWithin(const Plane& map, const Mask& mask);
 
 }  // namespace dustbench::bench

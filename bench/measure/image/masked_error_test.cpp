@@ -75,7 +75,7 @@ TEST(MaskedError, SkyAroundTheDustChangesNothing) {
             EXPECT_EQ(*wide.maximum, *close.maximum);
             EXPECT_NEAR(*wide.ssim, *close.ssim, 1e-9);
             EXPECT_NEAR(*wide.flip, *close.flip, 1e-5);
-            // What the mask is for: means over the whole picture praise the sky.
+            // The purpose of the mask: means over the whole picture are dominated by the sky.
             EXPECT_GT(wide.wholeSsim, close.wholeSsim);
             EXPECT_LT(wide.wholeRmse, close.wholeRmse);
         }

@@ -1,5 +1,5 @@
-// Each metric responds to the flaw that it measures and ignores those that it must ignore, as stated in the table in
-// reports/METRICS.md. The test keeps table and code consistent.
+// Each metric responds to the flaw that it measures and ignores others, as stated in the table in reports/METRICS.md.
+// The test keeps table and code consistent.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

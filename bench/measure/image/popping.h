@@ -1,4 +1,4 @@
-// Popping: jumps from one frame to the next in a method's pictures that the reference does not have.
+// Popping: jumps from one frame to the next in a method's pictures that the reference lacks.
 //
 //     popping = RMS of (Iₜ − Iₜ₋₁) − (Rₜ − Rₜ₋₁)
 //

@@ -6,7 +6,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Half-side of a quad by the radius of what it shows.
+/// Half-side of a quad in units of its primitive's radius.
 constexpr double quadOfRadius = 1.5;
 
 void addDepth(const SizedPrimitive& primitive, Plane& plane) {

@@ -1,14 +1,14 @@
-// Popping of small and of large primitives apart, within one picture: whether large voxels pop more than small ones,
-// and whose jumps fill more of the picture.
+// Popping of small and of large primitives separately, within one picture: whether large voxels pop more than small
+// ones, and which of them contribute more to the popping of the picture.
 //
 // A primitive is large if it is larger, in metres, than the geometric mean of the smallest and the largest one. A pixel
-// belongs to the side whose primitives have more optical depth there in the two frames together; a primitive counts
-// with depth·exp(−2b²/r²) within 1.5 r, the extent of a drawn quad, whether the scene hides it or not.
+// belongs to the side whose primitives have more optical depth there, summed over the two frames. A primitive
+// contributes depth·exp(−2b²/r²) within 1.5 r, the extent of a drawn quad, whether the scene hides it or not.
 //
-//     small, large            popping over the pixels of that side alone: how much they jump
-//     small_part, large_part  √(Σ jump² over the side's pixels / number of all pixels with dust): what the side adds to
-//                             popping. Distant primitives cover few pixels, so this is weighted by distance.
-//                             small_part² + large_part² = popping², but for dust that no primitive reaches
+//     small, large            popping over the pixels of that side only: how much they jump
+//     small_part, large_part  √(Σ jump² over the side's pixels / number of pixels with dust): the contribution of
+//                             the side to popping. Distant primitives cover few pixels, so this weights by distance.
+//                             small_part² + large_part² = popping², except for dust that no primitive reaches
 //
 // Units: display-encoded values; range 0..2. Threads: pure.
 #pragma once
@@ -24,7 +24,7 @@ namespace dustbench::bench {
 struct SizedPrimitive {
     ScreenPrimitive place;
     double sizeMetres = 0;
-    double opticalDepth = 0;  ///< through its middle
+    double opticalDepth = 0;  ///< through its centre
 };
 
 /// Optical depth of small and of large primitives at each pixel.

@@ -9,7 +9,7 @@ namespace dustbench::bench {
 
 pictures::Image resampled(const pictures::Image& image, int width, int height) {
     if (width < 1 || height < 1 || image.width < 1 || image.height < 1)
-        throw std::invalid_argument("resampled: an image has one pixel at least");
+        throw std::invalid_argument("resampled: an image has at least one pixel");
     if (width == image.width && height == image.height) return image;
     pictures::Image result{width, height, {}};
     result.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));

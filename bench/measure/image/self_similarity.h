@@ -1,6 +1,6 @@
-// Self-similarity: visible repetition of the same puff that the reference does not show.
+// Self-similarity: visible repetition of one puff that the reference does not show.
 //
-// The detail is α − R. Alpha is used because the scene behind the dust is the same for all puffs and is not theirs.
+// The detail is α − R. Alpha excludes the scene behind the dust, which all puffs share.
 // Around each primitive the detail is sampled at 17×17 points within ±0.8 r of the centre, and the mean is subtracted.
 // With p_i these 289 numbers, normalised to length 1, the value is the mean over all pairs of
 //

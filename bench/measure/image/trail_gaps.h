@@ -1,9 +1,9 @@
-// Gaps and spill: where a trail that should be continuous is missing, and where a method shows one that is not there.
+// Gaps and spill: where a method lacks a trail that should be continuous, and where it shows one that should not exist.
 //
 // The trail is where the reference has R > 0.1; a method covers it where α ≥ R/2. The method's own trail is where
-// α > 0.1; it spills where α > 2R. Each is the other with the two pictures exchanged: gaps are the error of omission,
-// spill the error of commission. Either alone is won by a fault: gaps by a blanket over the picture, spill by an empty
-// picture. The reference must be `continuum`: one made from the same puffs would break up with them.
+// α > 0.1; it spills where α > 2R. Exchanging the two pictures exchanges the metrics: gaps are errors of omission,
+// spill errors of commission. A faulty picture can be perfect in one of them: dust everywhere has no gaps, an empty
+// picture no spill. The reference must be `continuum`: one made from the same puffs would break up with them.
 // Threads: pure. Source: Congalton1991 (omission and commission).
 #pragma once
 
@@ -15,8 +15,8 @@ namespace dustbench::bench {
 
 /// Alphas above this are the trail.
 inline constexpr float trailAlpha = 0.1f;
-/// Connected regions with fewer pixels are specks and not counted: where α and R/2 are almost equal, single pixels fall
-/// on either side.
+/// Connected regions with fewer pixels are specks and do not count: where α and R/2 are almost equal, single pixels may
+/// be on either side.
 inline constexpr int minimumPartPixels = 16;
 
 /// Share of the trail that is not covered: 0..1. Empty if the reference has no trail. The map is 1 in gaps, else 0.

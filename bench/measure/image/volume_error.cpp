@@ -14,8 +14,8 @@ void requireWhole(const GridCells& grid, const char* name) {
     std::size_t expected = 1;
     for (const int cells : grid.cells) expected *= static_cast<std::size_t>(std::max(cells, 0));
     if (expected == 0 || grid.extinctionPerMetre.size() != expected)
-        throw InputError(fmt::format("{}: got {} cells, expected {}x{}x{} of them", name,
-                                     grid.extinctionPerMetre.size(), grid.cells[0], grid.cells[1], grid.cells[2]));
+        throw InputError(fmt::format("{}: got {} cells, expected {}x{}x{}", name, grid.extinctionPerMetre.size(),
+                                     grid.cells[0], grid.cells[1], grid.cells[2]));
     const auto bad = std::ranges::count_if(grid.extinctionPerMetre, [](float value) { return !std::isfinite(value); });
     if (bad > 0) throw InputError(fmt::format("{}: {} cells are not finite", name, bad));
 }
@@ -26,7 +26,7 @@ Measured volumeError(const GridCells& reference, const GridCells& grid) {
     requireWhole(reference, "the reference's grid");
     requireWhole(grid, "the grid");
     if (reference.cells != grid.cells)
-        throw InputError(fmt::format("grids of different size: the reference's has {}x{}x{} cells, the other {}x{}x{}",
+        throw InputError(fmt::format("grids differ in size: the reference has {}x{}x{} cells, the other has {}x{}x{}",
                                      reference.cells[0], reference.cells[1], reference.cells[2], grid.cells[0],
                                      grid.cells[1], grid.cells[2]));
     const auto nx = static_cast<std::size_t>(grid.cells[0]), ny = static_cast<std::size_t>(grid.cells[1]);

@@ -21,39 +21,42 @@ struct MeanMetric {
 
 /// The metrics that a run reports as a mean over its moments.
 constexpr std::array<MeanMetric, 20> means{{
-    {{"psnr_db", "peak signal-to-noise ratio against the exact picture, dB"}, &MomentMetrics::psnrDb},
-    {{"ssim", "structural similarity to the exact picture, 1: the same"}, &MomentMetrics::ssim},
-    {{"flip", "difference from the exact picture that an eye sees when the two alternate, 0: none"},
-     &MomentMetrics::flip},
-    {{"flip_mask", "flip where there is dust in either picture"}, &MomentMetrics::flipMask},
-    {{"psnr_mask_db", "psnr_db where there is dust in either picture, dB"}, &MomentMetrics::psnrMaskDb},
+    {{"psnr_db", "peak signal-to-noise ratio against the reference image, dB"}, &MomentMetrics::psnrDb},
+    {{"ssim", "structural similarity to the reference image; 1: identical"}, &MomentMetrics::ssim},
+    {{"flip", "difference that a viewer sees when flipping to the reference image; 0: none"}, &MomentMetrics::flip},
+    {{"flip_mask", "flip within the pixels that contain dust in either picture"}, &MomentMetrics::flipMask},
+    {{"psnr_mask_db", "psnr_db within the pixels that contain dust in either picture, dB"}, &MomentMetrics::psnrMaskDb},
     {{"ssim_mask", "ssim of the windows around dust in either picture"}, &MomentMetrics::ssimMask},
-    {{"rmse_linear_mask", "rmse_linear where there is dust in either picture"}, &MomentMetrics::rmseLinearMask},
+    {{"rmse_linear_mask", "rmse_linear within the pixels that contain dust in either picture"},
+     &MomentMetrics::rmseLinearMask},
     {{"error_max", "maximum error of a pixel with dust, linear light"}, &MomentMetrics::errorMax},
-    {{"banding", "error that neighbouring pixels with dust share, linear light; noise averages out"},
+    {{"banding", "error that neighbouring pixels with dust have in common, linear light; excludes noise"},
      &MomentMetrics::banding},
     {{"rmse_linear", "root of the mean squared difference of linear light"}, &MomentMetrics::rmseLinear},
-    {{"psnr_continuum_db", "psnr_db against 64 times as many particles, dB"}, &MomentMetrics::psnrContinuumDb},
+    {{"psnr_continuum_db", "psnr_db against a reference with 64 times as many particles, dB"},
+     &MomentMetrics::psnrContinuumDb},
     {{"gaps", "share of the trail that is not covered"}, &MomentMetrics::gaps},
-    {{"spill", "share of the trail that is shown where there is less than half of it"}, &MomentMetrics::spill},
-    {{"components", "parts into which the trail falls"}, &MomentMetrics::components},
-    {{"components_reference", "parts into which the exact trail falls"}, &MomentMetrics::componentsReference},
-    {{"cutoff", "edges where dust meets ground and solids that are not there in truth, alpha per pixel"},
+    {{"spill", "share of the method's trail with more than twice the reference's alpha"}, &MomentMetrics::spill},
+    {{"components", "number of separate parts of the trail"}, &MomentMetrics::components},
+    {{"components_reference", "number of separate parts of the reference's trail"},
+     &MomentMetrics::componentsReference},
+    {{"cutoff", "hard edges where dust meets ground or solids that the reference lacks, alpha per pixel"},
      &MomentMetrics::cutoff},
-    {{"self_similarity", "how much all primitives look alike, 0: not at all"}, &MomentMetrics::selfSimilarity},
-    {{"quads_per_pixel", "primitives by pixels of dust"}, &MomentMetrics::quadsPerPixel},
-    {{"volume_error", "distance of the volume from the particles' own, 0: none"}, &MomentMetrics::volumeError},
-    {{"volume_picture", "distance of the picture from that of the volume that the method reports, 0: none"},
+    {{"self_similarity", "similarity of the primitives to each other; 0: none"}, &MomentMetrics::selfSimilarity},
+    {{"quads_per_pixel", "primitives per pixel of dust"}, &MomentMetrics::quadsPerPixel},
+    {{"volume_error", "distance of the method's volume from that of the particles; 0: none"},
+     &MomentMetrics::volumeError},
+    {{"volume_picture", "distance of the picture from that of the method's reported volume; 0: none"},
      &MomentMetrics::volumePicture},
 }};
 constexpr std::array<MetricInfo, 7> others{{
-    {"identical", "1: every judged picture is the exact one"},
-    {"popping", "what jumps from frame to frame and should not: mean over the last frames"},
-    {"popping_max", "the largest of these jumps"},
+    {"identical", "1: every compared picture equals its reference image"},
+    {"popping", "jumps from frame to frame that the reference lacks: mean over the last frames"},
+    {"popping_max", "maximum of these jumps"},
     {"popping_small", "popping where the smaller primitives show"},
     {"popping_large", "popping where the larger primitives show"},
-    {"popping_small_part", "what the pixels of the smaller primitives add to popping, as a root of squares"},
-    {"popping_large_part", "what the pixels of the larger primitives add to popping"},
+    {"popping_small_part", "contribution of the smaller primitives' pixels to popping; the squares of both add up"},
+    {"popping_large_part", "contribution of the larger primitives' pixels to popping"},
 }};
 
 }  // namespace
@@ -107,7 +110,7 @@ std::string volumeWarning(const Judgement& judgement) {
         if (column == "volume_picture" && value > maximumVolumePicture)
             return fmt::format(
                 "the method does not draw the volume that it reports: volume_picture is {:.2f}, allowed: up to {}; "
-                "volume_error is of that volume, not of the picture",
+                "volume_error describes that volume, not the picture",
                 value, maximumVolumePicture);
     return {};
 }

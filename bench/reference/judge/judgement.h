@@ -1,4 +1,4 @@
-// The metrics of a run: a row of metrics.csv for each judged frame, and cells of summary.csv.
+// The metrics of a run: a row of metrics.csv for each frame with metrics, and columns of summary.csv.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ namespace dustbench::bench {
 
 /// Metrics of one run; frames ascending.
 struct Judgement {
-    std::vector<MomentMetrics> frames;  ///< judged moments, and frames of the popping stretch, which have only popping
+    std::vector<MomentMetrics> frames;  ///< moments, and the consecutive frames for popping, which have only popping
     std::optional<double> popping, poppingMax;
     PoppingBySize poppingBySize{};
 };
@@ -26,8 +26,8 @@ struct Judgement {
 /// identical. Metrics that are never defined are omitted.
 [[nodiscard]] std::vector<std::pair<std::string, double>> summaryOf(const Judgement& judgement);
 
-/// A sentence if the run's pictures are not those of the volumes that the method reported, by the mean of
-/// `volume_picture` (bench/measure/image/volume_picture.h); else empty.
+/// A warning if the mean of `volume_picture` (bench/measure/image/volume_picture.h) shows that the method draws other
+/// volumes than it reports; else empty.
 [[nodiscard]] std::string volumeWarning(const Judgement& judgement);
 
 struct MetricInfo {

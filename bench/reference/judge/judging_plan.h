@@ -1,4 +1,4 @@
-// Selects the frames of a run to judge: individual moments, and a stretch of consecutive frames for popping.
+// Selects the frames of a run that get metrics: individual moments, and a stretch of consecutive frames for popping.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@ inline constexpr std::int64_t minimumMoments = 5;
 struct JudgingPlan {
     /// Empty: five moments, evenly spaced from the first frame to the last.
     std::optional<FrameRange> moments;
-    /// Empty: the reference is the exact picture of the particles. Otherwise it is the same method with these
-    /// parameters set to finer values, for methods with their own simulation, which have no exact picture.
+    /// Empty: the reference is the ground truth of the particles. Otherwise it is the same method with these parameters
+    /// set to finer values, for methods with their own simulation, which have no ground truth.
     std::map<std::string, std::string, std::less<>> finer;
 
     bool keepsPictures = true;  ///< writes the judged pictures, their references and differences
 
     /// `exact`, or `depth=10 levels=5`.
     [[nodiscard]] std::string referenceText() const;
-    /// Judged frames of a run with this many frames, ascending.
+    /// The moments of a run with this many frames, ascending.
     [[nodiscard]] std::vector<std::int64_t> momentsOf(std::int64_t frames) const;
     /// The last frames, enough for PoppingSummary::minimumPairs; empty if the run has fewer.
     [[nodiscard]] static std::vector<std::int64_t> stretchOf(std::int64_t frames);

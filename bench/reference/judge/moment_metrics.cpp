@@ -18,7 +18,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Computed on the reference's default export grid.
+/// Computed on the default export grid of the reference.
 std::optional<double> volumeErrorOf(const CollectedVolume& volume, const CollectedVolume& exact) {
     if (volume.isNothing() || exact.isNothing()) return std::nullopt;
     const GridPlan plan = planGrid(exact.bounds(), VolumeSettings().resolution);
@@ -37,7 +37,7 @@ std::optional<double> asNumber(const std::optional<int>& value) {
     return value ? std::optional<double>(*value) : std::nullopt;
 }
 
-/// The pictures of a moment as the metrics take them.
+/// The pictures of a moment, prepared for the metrics.
 struct PreparedMoment {
     pictures::Image image, referenceImage;
     Picture picture, reference;
@@ -55,7 +55,7 @@ PreparedMoment prepare(const DrawnMoment& drawn, const ExactMoment& exact) {
     return prepared;
 }
 
-/// The metrics of the two pictures alone.
+/// The metrics that need only the two pictures.
 JudgedMoment compare(const PreparedMoment& prepared) {
     const auto& [image, referenceImage, picture, reference, alpha, exactAlpha] = prepared;
     JudgedMoment judged{{}, image, referenceImage, {}};

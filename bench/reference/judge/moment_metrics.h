@@ -20,12 +20,12 @@ struct MomentMetrics {
     std::optional<double> psnrDb, ssim, flip, flipMask, rmseLinear, psnrContinuumDb;
     std::optional<double> psnrMaskDb, ssimMask, rmseLinearMask, errorMax, banding;  ///< within the mask, as flipMask
     std::optional<bool> identical;
-    std::optional<double> popping;  ///< from the frame before
+    std::optional<double> popping;  ///< from the previous frame
     std::optional<double> gaps, spill, components, componentsReference, cutoff, selfSimilarity, quadsPerPixel,
         volumeError, volumePicture;
 };
 
-/// Data for judging a moment other than its pictures.
+/// Data for the metrics of a moment, other than its pictures.
 struct MomentFacts {
     std::int64_t primitives = 0;  ///< handed to the GPU by the method
     const CollectedVolume& volume;
@@ -41,7 +41,7 @@ struct JudgedMoment {
     Plane difference;           ///< FLIP map
 };
 
-/// The metrics that need the two pictures and no more; all others are empty.
+/// The metrics that need only the two pictures; all others are empty.
 [[nodiscard]] JudgedMoment comparePictures(const DrawnMoment& drawn, const ExactMoment& exact);
 /// All metrics except popping. `exact` must have all its layers.
 [[nodiscard]] JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, const MomentFacts& facts);
@@ -49,11 +49,11 @@ struct JudgedMoment {
 /// Computes popping over consecutive frames.
 class PoppingJudge {
  public:
-    /// Adds the next frame of the stretch; empty for the first. `primitives`: what the method draws.
+    /// Adds the next frame of the stretch; returns nothing for the first. `primitives`: those that the method draws.
     std::optional<double> add(const DrawnMoment& drawn, const ExactMoment& exact,
                               std::span<const SizedPrimitive> primitives = {});
     [[nodiscard]] const PoppingSummary& summary() const { return summary_; }
-    /// Means over the pairs, as of `summary`; over those in which a side has a pixel. Without one it adds nothing.
+    /// Means over the pairs that `summary` counts; a pair in which a side has no pixel adds nothing to that side.
     [[nodiscard]] PoppingBySize bySize() const;
 
  private:

@@ -1,4 +1,4 @@
-// The pictures judged at one moment: the method's and the exact ones.
+// The pictures compared at one moment: the method's and the ground truth.
 //
 // Units: linear light; layers premultiplied. Rows from the top.
 #pragma once
@@ -26,7 +26,7 @@ struct DrawnMoment {
     pictures::Image layerWithoutScene;  ///< the same without occlusion by the scene; empty if not requested
 };
 
-/// The exact pictures.
+/// The ground truth.
 struct ExactMoment {
     pictures::Image layer;              ///< of the particles themselves
     pictures::Image layerWithoutScene;  ///< empty if not requested
@@ -37,12 +37,12 @@ struct ExactMoment {
 /// Number of continuum particles per particle.
 inline constexpr std::int64_t continuumParticles = 64;
 
-/// `dust`: in its colours without light; `scene.lights.onDust` says whether it is lit. `withDetail`: also renders the
-/// layers without the scene. `continuum` may be empty; it is drawn in one colour, without light.
+/// `dust`: with its colours without light; `scene.lights.onDust` determines whether it is lit. `withDetail`: also
+/// renders the layers without the scene. `continuum` may be empty; it is drawn in one colour, without light.
 [[nodiscard]] ExactMoment exactMoment(const scene::Scene& scene, const scene::View& view, const DrawnMoment& drawn,
                                       const Puffs& dust, bool withDetail, const std::optional<Puffs>& continuum);
 
-/// The same with their sizes in metres, a voxel's edge or a puff's radius, and optical depths.
+/// The same with sizes in metres (a voxel's edge or a puff's radius) and optical depths.
 [[nodiscard]] std::vector<SizedPrimitive> sizedPrimitivesOnScreen(const CollectedVolume& volume,
                                                                   const scene::View& view);
 /// Screen positions of puffs, or of voxels as puffs of equal optical depth (edge = 1.2533 r). Primitives behind the eye

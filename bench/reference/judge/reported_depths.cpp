@@ -33,7 +33,7 @@ struct Span {
     [[nodiscard]] double length() const { return std::max(end - begin, 0.0); }
 };
 
-/// The part of the ray within a box.
+/// The interval of the ray within a box.
 Span within(const Ray& ray, const glm::dvec3& minimum, const glm::dvec3& maximum) {
     const glm::dvec3 a = (minimum - ray.eye) * ray.inverse, b = (maximum - ray.eye) * ray.inverse;
     const glm::dvec3 first = glm::min(a, b), last = glm::max(a, b);
@@ -47,7 +47,7 @@ struct Cube {
     int firstColumn, endColumn, firstRow, endRow;
 };
 
-/// The pixels around a convex body's corners; all where one is not in front of the eye.
+/// The pixels around the corners of a convex body; all pixels if a corner is not in front of the eye.
 void findPixels(Cube& cube, const CameraRays& rays) {
     double left = std::numeric_limits<double>::infinity(), right = -left, top = left, bottom = -left;
     double nearest = left, farthest = -left;

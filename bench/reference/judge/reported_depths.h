@@ -1,4 +1,4 @@
-// The picture of a volume exactly as a method handed it over: the optical depth along every pixel's ray.
+// The optical depth along every pixel's ray of a volume exactly as a method reported it.
 //
 // Puffs by the closed form (depth_sum.h), voxels and grid cells as cubes of constant extinction: the sum of extinction
 // times the ray's length within each, from the eye to the opaque scene. No filter, no marching step.

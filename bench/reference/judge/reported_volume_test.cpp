@@ -1,4 +1,4 @@
-// A method that reports another volume than it draws is found out.
+// A method that reports another volume than it draws is detected.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// A method that draws one cloud and reports another, judged against the exact picture of a third.
+/// A method that draws one cloud and reports another, compared with the ground truth of a third.
 class FakeMethod {
  public:
     [[nodiscard]] Judgement judged(const Puffs& drawnCloud, const Puffs& reportedCloud, const Puffs& exactCloud) const {
@@ -49,13 +49,13 @@ TEST(ReportedVolume, OfAnotherCloudThanTheDrawnOneIsFlagged) {
     for (const std::uint64_t seed : {1, 2, 3}) {
         const auto cloud = test::ball(ledger, seed, 40, {-2, 1, 0}, 1.5f, 0.5f);
         const auto other = test::ball(ledger, seed, 40, {3, 1, 0}, 1.5f, 0.5f);
-        // Honest, whether its picture is right or wrong.
+        // Reports the volume that it draws, whether its picture is right or wrong.
         for (const auto* exact : {&cloud, &other}) {
             const Judgement honest = method.judged(cloud, cloud, *exact);
             EXPECT_LT(columnOf(honest, "volume_picture"), 1e-6);
             EXPECT_EQ(volumeWarning(honest), "");
         }
-        // Reports the very reference and draws something else: volume_error alone calls it perfect.
+        // Reports the reference itself and draws something else: volume_error alone is perfect.
         const Judgement lying = method.judged(other, cloud, cloud);
         EXPECT_EQ(columnOf(lying, "volume_error"), 0);
         EXPECT_GT(columnOf(lying, "volume_picture"), 1);

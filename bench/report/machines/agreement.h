@@ -1,4 +1,4 @@
-// Whether machines agree: on a ratio of times, and on a claim.
+// Whether machines agree on a ratio of times or on a claim.
 //
 // Threads: pure.
 #pragma once
@@ -13,10 +13,10 @@
 namespace dustbench::bench {
 
 enum class Agreement {
-    agree,   ///< one verdict on all machines, by intervals that overlap
-    factor,  ///< one verdict, but two intervals do not overlap: by another factor
-    differ,  ///< two verdicts
-    open,    ///< resolved on some or no machines only, and without contradiction
+    agree,   ///< the same verdict on all machines, and all intervals overlap
+    factor,  ///< the same verdict, but two intervals do not overlap
+    differ,  ///< different verdicts
+    open,    ///< not resolved on all machines, but without contradiction
     alone    ///< measured on fewer than two machines
 };
 /// `agree`, `agree, by another factor` …
@@ -25,15 +25,15 @@ enum class Agreement {
 /// Machines without the ratio do not count.
 [[nodiscard]] Agreement agreementOf(const std::vector<SideRatio>& sides);
 
-/// By verdicts; those that are not tested do not count, unresolved and untestable ones are open.
+/// Compares verdicts. Claims that are not tested do not count; unresolved and untestable ones are open.
 [[nodiscard]] Agreement agreementOf(const std::vector<ClaimVerdict>& verdicts);
 
-/// A claim with its results in the folders that hold it.
+/// A claim with its results in the folders that contain it.
 struct SharedClaim {
-    std::vector<const JudgedClaim*> folders;  ///< by MachineSet::folders; null: not there
+    std::vector<const JudgedClaim*> folders;  ///< by MachineSet::folders; null if missing
     Agreement agreement = Agreement::alone;
 
-    /// From any folder: what was claimed is the same in all.
+    /// From any folder: the claim is the same in all.
     [[nodiscard]] const JudgedClaim& any() const;
 };
 

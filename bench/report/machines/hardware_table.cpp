@@ -40,7 +40,7 @@ std::string commitOf(const MachineSide& side) {
     return fmt::format("{}", fmt::join(commits, ", "));
 }
 
-/// `2026-03-01 10:20` of the first and the last run, in UTC.
+/// Dates of the first and the last run: `2026-03-01 10:20 to 2026-03-01 11:05 UTC`.
 std::string datesOf(const MachineSide& side) {
     const auto found = side.facts.find("started_utc");
     if (found == side.facts.end()) return {};

@@ -10,7 +10,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// The first input that differs from those of the cell's first run, or `state_hash`; else empty.
+/// The first input that differs from those of the cell's first run, or `state_hash`; empty if none differs.
 std::string otherWorkIn(const MachineCell& cell) {
     const StoredRun* first = nullptr;
     for (const CellRuns& runs : cell.sides)
@@ -37,7 +37,7 @@ bool MachineCells::haveSomethingInCommon() const {
 MachineCells cellsOf(const MachineSet& set) {
     std::map<CellIdentity, MachineCell, decltype(&identityLess)> found(&identityLess);
     MachineCells result;
-    std::map<std::string, std::vector<const StoredRun*>> placed;  // by run id, of the sides before
+    std::map<std::string, std::vector<const StoredRun*>> placed;  // by run id, of previous sides
     for (std::size_t side = 0; side < set.sides.size(); ++side) {
         std::size_t unplaced = 0, copied = 0;
         for (const StoredRun* run : set.sides[side].runs) {
@@ -62,10 +62,10 @@ MachineCells cellsOf(const MachineSet& set) {
             add(cell.sides[side], *run);
         }
         if (copied > 0)
-            result.unplaced.push_back(fmt::format("{}: {} of {} runs are copies of another folder's, and left out",
+            result.unplaced.push_back(fmt::format("{}: {} of {} runs are copies from another folder and left out",
                                                   set.sides[side].label, copied, set.sides[side].runs.size()));
         if (unplaced > 0)
-            result.unplaced.push_back(fmt::format("{}: {} of {} runs do not say what was measured (provenance.key)",
+            result.unplaced.push_back(fmt::format("{}: {} of {} runs do not record their settings (provenance.key)",
                                                   set.sides[side].label, unplaced, set.sides[side].runs.size()));
     }
     std::vector<CellIdentity> identities;

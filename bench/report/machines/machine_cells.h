@@ -1,4 +1,5 @@
-// The cells of several machines: runs that are equal in everything but the repetition, wherever they were measured.
+// The configurations measured on several machines. A cell contains all runs of one configuration, whose settings differ
+// only in the repetition.
 #pragma once
 
 #include <map>
@@ -13,8 +14,8 @@ namespace dustbench::bench {
 struct MachineCell {
     CellIdentity identity;
     std::vector<CellRuns> sides;  ///< by MachineSet::sides
-    /// Which of its inputs is not the same everywhere, or `state_hash`: what was measured is not one thing, and its
-    /// times are not shown. Empty if it is.
+    /// An input that is not the same everywhere, or `state_hash`: different work was measured, and its times are not
+    /// shown. Empty if the work is the same.
     std::string otherWork{};
 
     [[nodiscard]] bool isDoneOn(std::size_t side) const { return !sides[side].done.empty(); }
@@ -22,12 +23,11 @@ struct MachineCell {
 };
 
 struct MachineCells {
-    std::vector<MachineCell> cells;  ///< sorted by identity, numbers numerically
-    std::vector<std::string> names;  ///< the fields that tell cells of a method apart
-    std::vector<std::string>
-        unplaced;  ///< a sentence for each machine with copied runs or runs that do not say what they are
+    std::vector<MachineCell> cells;     ///< sorted by identity, numbers numerically
+    std::vector<std::string> names;     ///< the fields that distinguish cells of a method
+    std::vector<std::string> unplaced;  ///< a sentence for each machine with copied runs or with runs without settings
     [[nodiscard]] std::string labelOf(const MachineCell& cell) const { return bench::labelOf(cell.identity, names); }
-    /// True if a cell is done on two machines and is the same work there.
+    /// True if a cell is completed on two machines with the same work.
     [[nodiscard]] bool haveSomethingInCommon() const;
 };
 

@@ -1,4 +1,4 @@
-// Everything that the page of several machines shows, and its text in a terminal.
+// The data of the page that compares several machines, and of its text version.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace dustbench::bench {
 
-/// Move, do not copy: points into its set.
+/// Move, do not copy: contains pointers into its set.
 struct MachineComparison {
     MachineSet set;
     MachineCells cells;
@@ -21,7 +21,7 @@ struct MachineComparison {
     std::vector<MachineExperiment> experiments;
     std::vector<SharedClaim> claims;
 
-    /// False if no cell is done on two machines; then the remarks say why.
+    /// False if no configuration is completed on two machines; the remarks then give the reasons.
     [[nodiscard]] bool isComparable() const { return cells.haveSomethingInCommon(); }
 };
 
@@ -33,8 +33,9 @@ struct MachineComparison {
 /// The whole page, self-contained.
 [[nodiscard]] std::string machinesPage(const MachineComparison& comparison);
 
-/// Writes the page to `out`, a file that ends in `.html`, or index.html in a folder, which is made; returns its path.
-/// Throws InputError for a page that was not written by this program, or the report of one of the folders.
+/// Writes the page to `out`, a file that ends in `.html`, or to index.html in a folder, which is created if missing.
+/// Returns its path. Throws InputError if it would replace a page that was not written by this program, or the report
+/// of one of the folders.
 std::filesystem::path writeMachinesPage(const std::filesystem::path& out, const MachineComparison& comparison);
 
 }  // namespace dustbench::bench

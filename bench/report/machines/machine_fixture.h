@@ -1,4 +1,4 @@
-// For tests: made-up machines, each a folder that was read, with times by formula.
+// For tests: made-up machines, each with one folder of results, with times from a formula.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 
 namespace dustbench::bench {
 
-/// What distinguishes a made-up run.
+/// The properties of a made-up run.
 struct MadeRun {
     std::string method;
     int particles = 0, repetition = 1, seed = 1;
@@ -73,7 +73,7 @@ inline std::vector<MadeRun> session(double fogMs, double ratio, const std::vecto
     return made;
 }
 
-/// A folder that was read.
+/// The data of a folder.
 inline ReportData readFolder(StoredRuns runs) {
     ReportData data;
     data.folder = "somewhere";

@@ -24,7 +24,7 @@ using files::numberOf;
 using Runs = std::map<std::string, std::map<std::string, const StoredRun*>>;  // by seed, then repetition
 /// ln(of / with) by seed, then repetition.
 using LogRatios = std::map<std::string, std::map<std::string, double>>;
-/// The same by repetition, or by seed where there are several.
+/// The same by repetition, or by seed if there are several.
 using Turns = std::map<std::string, double>;
 
 struct Group {
@@ -39,9 +39,9 @@ std::map<std::string, Group> groupsOf(const MachineSet& set) {
     for (const ReportData& folder : set.folders)
         for (const RunGroup& from : folder.groups) {
             Group& group = groups[from.id];
-            group.title = from.suite.empty() ? "Runs of no suite" : from.title;
+            group.title = from.suite.empty() ? "Runs without a suite" : from.title;
             group.title += !from.suite.empty() && from.id != from.suite ? " (quick)" : "";
-            group.summary = from.suite.empty() ? "Runs of no suite of the data folder." : from.summary;
+            group.summary = from.suite.empty() ? "Runs that belong to no suite of the data folder." : from.summary;
             for (const ReportCell& cell : from.cells)
                 for (const StoredRun* run : cell.done) group.runs.insert(run->runId);
             for (const ComparisonResult& comparison : from.comparisons)
@@ -52,7 +52,7 @@ std::map<std::string, Group> groupsOf(const MachineSet& set) {
     return groups;
 }
 
-/// Method and its own settings.
+/// The method and its own settings.
 CellIdentity variantOf(const CellIdentity& identity) {
     CellIdentity own;
     std::ranges::copy_if(identity, std::back_inserter(own), [](const auto& field) {
@@ -124,7 +124,7 @@ SideRatio judged(const Turns& turns) {
     return ratio;
 }
 
-/// The turns that all of these worlds have, each the mean over them.
+/// The mean over the worlds for each turn that all of them have.
 Turns meanTurns(const std::vector<Turns>& worlds) {
     Turns means;
     if (worlds.empty()) return means;
@@ -140,7 +140,7 @@ Turns meanTurns(const std::vector<Turns>& worlds) {
     return means;
 }
 
-/// The runs of one experiment, by variant, world and machine; makes its ratios and values.
+/// The runs of one experiment by variant, world and machine. Computes its ratios and values.
 class Measured {
  public:
     Measured(const Group& group, const MachineCells& cells, std::size_t sides) : group_(group), sides_(sides) {
@@ -274,7 +274,8 @@ class Measured {
         for (std::size_t side = 0; side < sides_; ++side) {
             SideRatio all = judged(has[side] ? meanTurns(common[side]) : Turns());
             if (has[side] && all.result.pairs == 0)
-                all.reason = ratio.common == 0 ? "no world is on every machine" : "no repetition is in every world";
+                all.reason = ratio.common == 0 ? "no world was measured on every machine"
+                                               : "no repetition exists in every world";
             ratio.all.sides.push_back(std::move(all));
         }
     }
@@ -337,7 +338,7 @@ std::vector<MachineExperiment> compareMachines(const MachineSet& set, const Mach
         experiment.reference = referenceOf(experiment);
         experiments.push_back(std::move(experiment));
     }
-    // Runs of no suite come last.
+    // Runs without a suite come last.
     std::ranges::stable_partition(experiments, [](const MachineExperiment& one) { return one.id != "other"; });
     return experiments;
 }

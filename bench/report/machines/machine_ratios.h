@@ -1,10 +1,11 @@
-// Ratios of the methods' times on each machine, and the times themselves, experiment by experiment.
+// Ratios of the methods' times on each machine, and the times themselves, for each experiment.
 //
-// A ratio compares two variants, methods with their own settings, within one machine: run with run of the same world,
-// seed and repetition (pairKey of method_time.h). Its interval and verdict are those of paired_ratio.h, over the
-// repetitions; where all machines share several seeds, over the seeds, each the mean of its repetitions. Seeds that not
-// all machines have are left out. For all worlds together, each repetition or seed gives one ratio, the geometric mean
-// over the worlds that every machine has which has the two at all: so all machines answer the same question.
+// A ratio compares two variants, which are methods with their own settings, within one machine. It pairs runs of the
+// same world, seed and repetition (pairKey of method_time.h). Interval and verdict are those of paired_ratio.h over the
+// repetitions or, if all machines share several seeds, over the seeds, with the mean over each seed's repetitions.
+// Seeds that are missing on a machine are left out. For all worlds together, each repetition or seed gives one ratio:
+// the geometric mean over the worlds that were measured on every machine that has both variants. So all machines answer
+// the same question.
 //
 // Units: ms, and frames per second. Threads: plain data.
 #pragma once
@@ -19,7 +20,7 @@
 
 namespace dustbench::bench {
 
-/// What varies between the worlds of an experiment.
+/// A setting that varies between the worlds of an experiment.
 struct WorldAxis {
     std::string name;  ///< `particles`, `size`
     std::string unit;
@@ -35,11 +36,11 @@ struct MachineVariant {
 /// A ratio on one machine.
 struct SideRatio {
     PairedRatio result;
-    std::string reason;  ///< why there is not enough data for a verdict; else empty
+    std::string reason;  ///< why there is not enough data for a verdict; otherwise empty
 };
 
 struct RatioRow {
-    std::size_t world = 0;         ///< of MachineExperiment::worlds; of no meaning for all together
+    std::size_t world = 0;         ///< index in MachineExperiment::worlds; unused for all worlds together
     std::vector<SideRatio> sides;  ///< by MachineSet::sides
 };
 
@@ -52,7 +53,7 @@ struct MachineRatio {
     std::size_t common = 0;  ///< number of worlds in `all`
 };
 
-/// What one machine measured, not to be compared with that of another without saying so.
+/// A time measured on one machine. Any comparison with another machine's must be marked as such.
 struct MachineValue {
     std::size_t variant = 0, world = 0, side = 0;
     std::string column;
@@ -67,7 +68,7 @@ struct MachineExperiment {
     std::vector<std::vector<std::string>> worlds{};  ///< a value for each axis; empty: the world has no such setting
     std::vector<MachineRatio> ratios{};              ///< of < with; those that some machine has
     std::vector<MachineValue> values{};
-    /// The variant that the others are shown against: the one with most ratios, of equals the first.
+    /// The variant with which the others are compared: the first one with the most ratios.
     std::size_t reference = 0;
 };
 
@@ -77,7 +78,7 @@ struct MachineExperiment {
 /// `with` over `of`.
 [[nodiscard]] PairedRatio inverted(const PairedRatio& ratio);
 
-/// Of cells that are the same work everywhere. Experiments without a run are left out.
+/// Uses only cells whose work is the same everywhere. Experiments without a run are left out.
 [[nodiscard]] std::vector<MachineExperiment> compareMachines(const MachineSet& set, const MachineCells& cells);
 
 }  // namespace dustbench::bench

@@ -30,7 +30,7 @@ SideRatio ratioWith(double ratio, double low, double high, Verdict verdict) {
 }  // namespace
 
 TEST(MachineRatios, AreThoseOfPairedRunsWithinOneMachine) {
-    // The second machine takes 50 times as long, and there haze is the slower one.
+    // The second machine takes 50 times as long, and haze is slower on it.
     const auto comparison =
         compared({{"quick", storedRuns(session(1, 0.5), "A")}, {"slow", storedRuns(session(50, 2), "B")}});
     const MachineExperiment& experiment = comparison.experiments.at(0);
@@ -103,7 +103,7 @@ TEST(MachineRatios, OfAllTogetherRestOnTheWorldsThatEveryMachineHas) {
 }
 
 TEST(MachineRatios, OfSeveralSeedsAreOverThoseThatAllMachinesHave) {
-    // On the first machine the ratio of seed 3, which the other lacks, is another.
+    // On the first machine, the ratio differs for seed 3, which is missing on the other.
     StoredRuns first, second;
     for (const int seed : {1, 2, 3}) {
         first.merge(storedRuns(session(1, seed == 3 ? 9 : seed == 1 ? 0.4 : 0.6, {200}, scatter, seed), "A"));
@@ -158,7 +158,8 @@ TEST(MachineRatios, LeaveOutWorkThatIsNotTheSame) {
     EXPECT_THAT(experiment.axes, IsEmpty());
     EXPECT_THAT(experiment.worlds, SizeIs(1));
     EXPECT_THAT(comparison.remarks.apart,
-                ElementsAre("scenes/plain.toml is not the same everywhere: different work was measured in 2 cells, "
+                ElementsAre("scenes/plain.toml is not the same everywhere: different work was measured in 2 "
+                            "configurations, "
                             "whose times are left out"));
 }
 

@@ -15,7 +15,7 @@ namespace dustbench::bench {
 namespace {
 
 using Names = std::vector<std::string>;
-/// Values of one field by machine; none for a machine without it.
+/// Values of one field by machine; empty for a machine without it.
 using SideValues = std::vector<std::set<std::string>>;
 
 constexpr std::size_t namedValues = 6;
@@ -65,7 +65,7 @@ class Remarks {
  private:
     [[nodiscard]] std::size_t sides() const { return set_.sides.size(); }
 
-    /// `320x240 on A and C; 640x480 on B`: machines with equal texts together.
+    /// `320x240 on A and C; 640x480 on B`: machines with equal texts are joined.
     [[nodiscard]] std::string bySide(const std::vector<std::string>& texts) const {
         std::map<std::string, Names> labels;
         for (std::size_t side = 0; side < sides(); ++side)
@@ -85,13 +85,13 @@ class Remarks {
         return labels;
     }
 
-    /// The sentence `THING: only on A`, and that its cells need no other.
+    /// Adds the sentence `THING: only on A`, which also explains its missing cells.
     void sayOnlyOn(const std::string& thing, const std::set<std::size_t>& on) {
         result_.apart.push_back(
             fmt::format("{}: only on {}", thing, listOf(labelsOf(std::vector<std::size_t>(on.begin(), on.end())))));
     }
 
-    /// But what the table of hardware shows, which leaves out runs that are not done.
+    /// Notes the folder's problems except differences between machines, which the table of hardware shows.
     void sayProblems(std::size_t folder) {
         const ReportData& data = set_.folders[folder];
         for (const std::string& problem : data.problems)
@@ -114,7 +114,7 @@ class Remarks {
         for (const MachineCell& cell : cells_.cells) {
             const bool has =
                 std::ranges::find(cell.identity, name, &CellIdentity::value_type::first) != cell.identity.end();
-            // A parameter belongs to some methods; everything else is there or is none.
+            // A parameter may be missing because the method has none; for other fields, missing is a value.
             if (!has && name.starts_with("p.")) continue;
             for (std::size_t side = 0; side < sides(); ++side)
                 if (cell.isDoneOn(side)) values[side].insert(valueOf(cell.identity, name));
@@ -160,7 +160,7 @@ class Remarks {
             result_.apart.push_back(
                 fmt::format("{} is not the same everywhere: different work was measured in {} {}, "
                             "whose times are left out",
-                            what, count, count == 1 ? "cell" : "cells"));
+                            what, count, count == 1 ? "configuration" : "configurations"));
     }
 
     void sayPrograms() {
@@ -174,7 +174,7 @@ class Remarks {
         }
     }
 
-    /// Runs of one machine that need not be of one program.
+    /// Notes machines whose runs were measured by different programs.
     void sayMixedPrograms() {
         for (const MachineSide& side : set_.sides)
             for (const char* field : {"git_commit", "compiler", "gl_version"})
@@ -198,7 +198,7 @@ class Remarks {
             for (std::size_t b = a + 1; b < sides(); ++b)
                 if (areAlike(set_.sides[a], set_.sides[b]))
                     result_.notes.push_back(fmt::format(
-                        "{} are the same machine, or two that are alike: CPU, cores, memory and graphics are equal",
+                        "{} are the same machine, or two identical ones: CPU, cores, memory and graphics are equal",
                         listOf(labelsOf({a, b}))));
         std::vector<std::string> kinds, threads;
         for (const MachineSide& side : set_.sides) {
@@ -212,19 +212,19 @@ class Remarks {
         }
         if (std::ranges::any_of(kinds, [&](const std::string& kind) { return kind != kinds.front(); }))
             result_.notes.push_back(
-                fmt::format("drawn by {}: what is drawn, and how, weighs differently in a frame", bySide(kinds)));
+                fmt::format("drawn by {}: drawing takes a different share of a frame", bySide(kinds)));
         if (std::ranges::any_of(threads, [&](const std::string& count) { return count != threads.front(); }))
             result_.notes.push_back(fmt::format("CPU threads of a run: {}", bySide(threads)));
         for (std::size_t side = 0; side < sides(); ++side) {
             const bool isShared = std::ranges::any_of(
                 cells_.cells, [side](const MachineCell& cell) { return cell.isDoneOn(side) && cell.sidesDone() > 1; });
             if (!isShared)
-                result_.notes.push_back(
-                    fmt::format("{}: none of its cells is done on another machine", set_.sides[side].label));
+                result_.notes.push_back(fmt::format("{}: none of its configurations was measured on another machine",
+                                                    set_.sides[side].label));
         }
     }
 
-    /// True if a sentence says already why a machine lacks the cell.
+    /// True if another sentence already explains why the cell is missing on a machine.
     [[nodiscard]] bool isExplained(const MachineCell& cell, std::size_t side) const {
         if (!methods_.at(valueOf(cell.identity, "method")).contains(side)) return true;
         for (const auto& [name, values] : settings_)
@@ -263,9 +263,9 @@ class Remarks {
     const MachineSet& set_;
     const MachineCells& cells_;
     MachineRemarks result_;
-    std::map<std::string, std::set<std::size_t>> methods_, suites_;  ///< the machines that have any of it
+    std::map<std::string, std::set<std::size_t>> methods_, suites_;  ///< the machines with any of their runs
     std::map<std::string, std::set<std::string>> groupsOf_;          ///< by run id
-    std::vector<std::pair<std::string, SideValues>> settings_;       ///< those that keep machines apart
+    std::vector<std::pair<std::string, SideValues>> settings_;       ///< settings without common values
 };
 
 }  // namespace

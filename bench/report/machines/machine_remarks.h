@@ -1,4 +1,4 @@
-// What must be known before machines are compared: what cannot be, and why.
+// Remarks for a comparison of machines: what cannot be compared, and why.
 #pragma once
 
 #include <string>
@@ -9,23 +9,23 @@
 
 namespace dustbench::bench {
 
-/// A cell that some machines have and others lack.
+/// A configuration that was measured on some machines but not on others.
 struct MissingCell {
     std::string cell;             ///< `billboard particles=500`
-    std::vector<std::size_t> on;  ///< machines on which it is done
-    /// The others, with the reason: `not measured`, `invalid: …`, `copied …`, `failed: …`, `skipped: …`.
+    std::vector<std::size_t> on;  ///< machines on which it is completed
+    /// The other machines, with the reason: `not measured`, `invalid: …`, `copied …`, `failed: …`, `skipped: …`.
     std::vector<std::pair<std::size_t, std::string>> lacking;
 };
 
 /// Each sentence is one line.
 struct MachineRemarks {
-    /// Other settings, methods, suites or inputs: their cells have no counterpart.
+    /// Settings, methods, suites or inputs without a counterpart on other machines.
     std::vector<std::string> apart;
-    /// Other programs: what differs may be their doing, not the machines'.
+    /// Differences between the programs, which may be the cause of different results.
     std::vector<std::string> programs;
-    /// Machines that are alike, or of another kind; numbers of threads; damaged and unknown runs.
+    /// Identical machines or different kinds, numbers of threads, damaged and unknown runs.
     std::vector<std::string> notes;
-    /// Cells that are missing for no reason given in `apart`.
+    /// Missing configurations that `apart` does not explain.
     std::vector<MissingCell> missing;
 };
 

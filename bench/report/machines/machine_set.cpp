@@ -42,8 +42,7 @@ void requireDifferentFolders(const std::vector<fs::path>& folders) {
         std::error_code none;
         const fs::path real = fs::canonical(folder, none);
         if (!none && !seen.insert(real).second)
-            throw InputError(
-                fmt::format("'{}': got the same folder twice, expected folders that differ", folder.string()));
+            throw InputError(fmt::format("'{}': given more than once, expected different folders", folder.string()));
     }
 }
 
@@ -56,10 +55,10 @@ void requireLabels(const std::vector<std::string>& labels, std::size_t folders) 
             throw InputError(
                 fmt::format("--label: got '{}', allowed: 1..{} printable characters", label, longestLabel));
     if (!areUnique(labels))
-        throw InputError(fmt::format("--label: got '{}', expected labels that differ", fmt::join(labels, "', '")));
+        throw InputError(fmt::format("--label: got '{}', expected different labels", fmt::join(labels, "', '")));
 }
 
-/// Unknown machines of runs that ended before they met a graphics device go with the first.
+/// Runs that ended before they had a graphics device have no machine; they are assigned to the first one.
 MachineSide& sideOf(std::vector<MachineSide>& sides, std::size_t first,
                     const std::vector<std::vector<std::string>>& machines, const StoredRun& run) {
     const auto found = std::ranges::find(machines, valuesOf(run, machineFields()));
@@ -75,8 +74,8 @@ void addSides(const ReportData& data, std::size_t folder, const std::string& lab
             machines.push_back(std::move(values));
     if (machines.empty())
         throw InputError(
-            fmt::format("'{}': holds no run that is done and can be read, expected a folder that `suite`, "
-                        "`run`, `compare` or `reproduce` wrote",
+            fmt::format("'{}': contains no completed and readable run, expected a results folder written by "
+                        "`suite`, `run`, `compare` or `reproduce`",
                         data.folder));
     const std::size_t first = sides.size();
     for (std::size_t i = 0; i < machines.size(); ++i)
@@ -124,7 +123,7 @@ MachineSet readMachines(const std::vector<fs::path>& folders, const std::vector<
     requireDifferentFolders(folders);
     if (!labels.empty()) requireLabels(labels, folders.size());
     std::vector<ReportData> read;
-    read.reserve(folders.size());  // a move could copy otherwise, and what points into the runs would dangle
+    read.reserve(folders.size());  // reallocation could copy, and pointers into the runs would dangle
     for (const fs::path& folder : folders) {
         read.push_back(readReport(folder, 0));
         read.back().folder = folder.string();

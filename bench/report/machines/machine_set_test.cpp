@@ -69,7 +69,7 @@ TEST(MachineSet, RefusesLabelsThatDoNotTellFoldersApart) {
         return messageOf([&] { (void)readMachines(both, labels); });
     };
     EXPECT_EQ(asked({"x"}), "--label: got 1 for 2 folders, allowed: one for each, or none");
-    EXPECT_EQ(asked({"x", "x"}), "--label: got 'x', 'x', expected labels that differ");
+    EXPECT_EQ(asked({"x", "x"}), "--label: got 'x', 'x', expected different labels");
     EXPECT_THAT(asked({"x", ""}), HasSubstr("allowed: 1..60 printable characters"));
     EXPECT_THAT(asked({"x", std::string(61, 'y')}), HasSubstr("allowed: 1..60 printable characters"));
     EXPECT_THAT(asked({"x", "y\nz"}), HasSubstr("allowed: 1..60 printable characters"));
@@ -77,7 +77,7 @@ TEST(MachineSet, RefusesLabelsThatDoNotTellFoldersApart) {
     EXPECT_THAT(messageOf([&] {
                     (void)readMachines({both[0], folder.path() / "b/../a"}, {});
                 }),
-                HasSubstr("got the same folder twice"));
+                HasSubstr("given more than once"));
 }
 
 TEST(MachineSet, CopiedRunsAreNoMeasurementsOfAnotherMachine) {
@@ -85,7 +85,7 @@ TEST(MachineSet, CopiedRunsAreNoMeasurementsOfAnotherMachine) {
     for (auto& [id, run] : runs) run.provenance["started_utc"] = "2026-01-02T03:04:05Z";
     const MachineComparison comparison = compared({{"a", runs}, {"b", runs}});
     EXPECT_FALSE(comparison.isComparable());
-    EXPECT_THAT(comparison.remarks.notes, Contains("b: 12 of 12 runs are copies of another folder's, and left out"));
+    EXPECT_THAT(comparison.remarks.notes, Contains("b: 12 of 12 runs are copies from another folder and left out"));
 }
 
 TEST(MachineSet, NamesADamagedRunAndAFolderWithoutRuns) {
@@ -132,13 +132,13 @@ TEST(MachineRemarks, SayOnceWhichSettingsKeepMachinesApart) {
     EXPECT_THAT(apart.remarks.apart, ElementsAre("size: 640x480 on large; 64x48 on small"));
     EXPECT_THAT(apart.remarks.missing, IsEmpty());
     EXPECT_FALSE(apart.isComparable());
-    // A third machine that has cells in common with one of them.
+    // A third machine that shares configurations with one of them.
     const auto some = compared({{"small", storedRuns(session(1, 0.5), "A")},
                                 {"large", storedRuns(large, "B")},
                                 {"third", storedRuns(session(2, 0.5), "C")}});
     EXPECT_TRUE(some.isComparable());
     EXPECT_THAT(some.remarks.apart, ElementsAre("size: 640x480 on large; 64x48 on small and third"));
-    EXPECT_THAT(some.remarks.notes, Contains("large: none of its cells is done on another machine"));
+    EXPECT_THAT(some.remarks.notes, Contains("large: none of its configurations was measured on another machine"));
 }
 
 TEST(MachineRemarks, NameAMethodOfOneMachineAlone) {
@@ -153,7 +153,7 @@ TEST(MachineRemarks, SayThatTwoFoldersAreOfOneMachine) {
     const auto same =
         compared({{"before", storedRuns(session(1, 0.5), "A")}, {"after", storedRuns(session(1, 0.5), "A")}});
     EXPECT_THAT(same.remarks.notes,
-                Contains("after and before are the same machine, or two that are alike: CPU, cores, "
+                Contains("after and before are the same machine, or two identical ones: CPU, cores, "
                          "memory and graphics are equal"));
     const auto two = compared({{"a", storedRuns(session(1, 0.5), "A")}, {"b", storedRuns(session(1, 0.5), "B")}});
     EXPECT_THAT(two.remarks.notes, Not(Contains(HasSubstr("the same machine"))));
@@ -162,7 +162,7 @@ TEST(MachineRemarks, SayThatTwoFoldersAreOfOneMachine) {
 TEST(MachineRemarks, SayThatTheRunsOfOneMachineAreOfSeveralPrograms) {
     StoredRuns mixed = storedRuns(session(1, 0.5), "A");
     mixed.begin()->second.provenance["git_commit"] = "fedcba9876543210";
-    // Of a run that is not done nothing is shown, so its commit does not count.
+    // Nothing is shown of a run that did not complete, so its commit does not count.
     StoredRuns failed = storedRuns(session(1, 0.5), "B");
     failed.begin()->second.provenance["git_commit"] = "fedcba9876543210";
     failed.begin()->second.status = RunStatus::failed;
@@ -182,8 +182,7 @@ TEST(MachineRemarks, SayThatProgramsAndRenderersDiffer) {
     const auto comparison = compared({{"a", storedRuns(session(1, 0.5), "A")}, {"b", other}});
     EXPECT_THAT(comparison.remarks.programs, ElementsAre("commit: 0123456789ab on a; fedcba987654 on b"));
     EXPECT_THAT(comparison.remarks.notes,
-                Contains("drawn by a GPU on a; a software renderer on b: what is drawn, and how, "
-                         "weighs differently in a frame"));
+                Contains("drawn by a GPU on a; a software renderer on b: drawing takes a different share of a frame"));
     EXPECT_THAT(comparison.remarks.notes, Contains("CPU threads of a run: 16 on b; 2 on a"));
     const auto row = std::ranges::find(comparison.hardware, "commit", &HardwareRow::name);
     EXPECT_TRUE(row->differs());
@@ -204,7 +203,7 @@ TEST(MachinesPage, IsWrittenToAFileOrAFolderAndOverNothingElse) {
     EXPECT_THAT(messageOf([&] { (void)writeMachinesPage(folder.path() / "mine.html", comparison); }),
                 HasSubstr("was not written by dustbench"));
     EXPECT_THAT(messageOf([&] { (void)writeMachinesPage(folder.path() / "a", comparison); }),
-                HasSubstr("where the report of that folder alone goes"));
+                HasSubstr("which is the place of that folder's own report"));
     EXPECT_FALSE(fs::exists(folder.path() / "a/index.html"));
 }
 

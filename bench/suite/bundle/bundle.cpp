@@ -27,12 +27,12 @@ constexpr const char* sumsName = "SHA256SUMS";
 constexpr const char* indexName = "bundle.json";
 constexpr int layout = 1;
 
-/// Files by their name in the bundle.
+/// Files by name in the bundle.
 using Contents = std::map<std::string, fs::path>;
 
 void addResults(const fs::path& results, Contents& contents) {
     for (auto entry = fs::recursive_directory_iterator(results); entry != fs::recursive_directory_iterator(); ++entry) {
-        if (entry->path().filename().string().starts_with('.')) {  // a lock, or what is being written
+        if (entry->path().filename().string().starts_with('.')) {  // a lock, or a file that is still being written
             entry.disable_recursion_pending();
         } else if (entry->is_regular_file()) {
             const std::string name = entry->path().lexically_relative(results).generic_string();
@@ -47,15 +47,15 @@ std::string placeOf(const InputHash& input) {
     return fmt::format("outside/{}-{}", input.sha256.substr(0, 12), file.filename().string());
 }
 
-/// All inputs once. Throws InputError if two runs have read different contents of one file.
+/// All inputs without duplicates. Throws InputError if two runs read different versions of a file.
 std::vector<InputHash> inputsOf(const StoredRuns& runs) {
     std::map<std::string, std::string> sums;
     for (const auto& [id, run] : runs)
         for (const InputHash& input : run.inputs)
             if (const auto [at, isNew] = sums.emplace(input.file, input.sha256); !isNew && at->second != input.sha256)
                 throw InputError(
-                    fmt::format("input '{}': the runs have read different contents of it; `dustbench suite … "
-                                "--redo-outdated` measures with one",
+                    fmt::format("input '{}': the runs read different versions of it; `dustbench suite … "
+                                "--redo-outdated` repeats the outdated runs",
                                 input.file));
     std::vector<InputHash> inputs;
     inputs.reserve(sums.size());
@@ -68,16 +68,16 @@ Json addInputs(const std::vector<InputHash>& inputs, Contents& contents) {
     for (const InputHash& input : inputs) {
         const fs::path file = files::dataPath(input.file);  // an absolute path stays as it is
         if (file.empty() || !fs::is_regular_file(file))
-            throw InputError(fmt::format("input '{}': is not here any more, but the runs have read it", input.file));
+            throw InputError(fmt::format("input '{}': was read by the runs but no longer exists", input.file));
         if (sha256OfFile(file) != input.sha256)
-            throw InputError(fmt::format("input '{}': has changed since the runs have read it", file.string()));
+            throw InputError(fmt::format("input '{}': has changed since the runs read it", file.string()));
         contents.emplace(placeOf(input), file);
         index.push_back({{"file", input.file}, {"sha256", input.sha256}, {"at", placeOf(input)}});
     }
     return index;
 }
 
-/// The commands that measured the runs, each once.
+/// The commands that measured the runs, without duplicates.
 std::set<std::vector<std::string>> commandsOf(const fs::path& results, const StoredRuns& runs) {
     std::set<std::vector<std::string>> commands;
     for (const auto& [id, run] : runs) {
@@ -87,13 +87,13 @@ std::set<std::vector<std::string>> commandsOf(const fs::path& results, const Sto
     return commands;
 }
 
-/// The words behind the command's name; nothing if it is another command.
+/// The arguments after the subcommand `name`; empty if it is another subcommand.
 std::vector<std::string> wordsOf(const std::vector<std::string>& command, std::string_view name) {
     const auto word = std::ranges::find(command, name);
     return word == command.end() ? std::vector<std::string>() : std::vector<std::string>(word + 1, command.end());
 }
 
-/// The file of the suite that `dustbench suite` was called with.
+/// The file of the suite named on a `dustbench suite` command line.
 std::vector<fs::path> suiteOf(const std::vector<std::string>& words, const std::vector<SuiteFile>& known) {
     for (const std::string& word : words) {
         if (word.starts_with('-')) continue;
@@ -104,7 +104,7 @@ std::vector<fs::path> suiteOf(const std::vector<std::string>& words, const std::
     return {};
 }
 
-/// Those of the papers that `dustbench reproduce` was called with; without a word of one, of all.
+/// The suites of the papers named on a `dustbench reproduce` command line; of all papers if it names none.
 std::vector<fs::path> suitesOfPapers(const std::vector<std::string>& words, const std::vector<SuiteFile>& known) {
     std::vector<fs::path> named, all;
     for (const SuiteFile& suite : known) {
@@ -125,13 +125,14 @@ void addSuites(const std::set<std::vector<std::string>>& commands, Contents& con
         const auto found = ofSuite.empty() ? std::vector<fs::path>() : suiteOf(ofSuite, known);
         suites.insert(found.begin(), found.end());
         if (!ofSuite.empty() && found.empty())
-            packed.missing.push_back(fmt::format("the suite of `{}` is not here any more", fmt::join(command, " ")));
+            packed.missing.push_back(fmt::format("the suite of `{}` no longer exists", fmt::join(command, " ")));
         if (ofSuite.empty() && !ofPaper.empty())
             for (fs::path& file : suitesOfPapers(ofPaper, known)) suites.insert(std::move(file));
     }
     for (const fs::path& file : suites)
         if (!contents.emplace("suites/" + file.filename().string(), file).second)
-            packed.missing.push_back(fmt::format("suite '{}': another of its name is in the bundle", file.string()));
+            packed.missing.push_back(
+                fmt::format("suite '{}': the bundle already contains a suite with this name", file.string()));
 }
 
 Json indexHead(const std::set<std::vector<std::string>>& commands) {
@@ -144,7 +145,7 @@ void writeArchive(const Contents& contents, const std::string& index, const std:
     std::string sums;
     for (const auto& [name, file] : contents) {
         if (name.find('\n') != std::string::npos)
-            throw InputError(fmt::format("'{}': has a line break in its name", file.string()));
+            throw InputError(fmt::format("'{}': its name contains a line break", file.string()));
         tar.add(top + name, file);
         sums += fmt::format("{}  {}\n", sha256OfFile(file, std::uintmax_t(-1)), name);
         packed.bytes += fs::file_size(file);
@@ -157,10 +158,10 @@ void writeArchive(const Contents& contents, const std::string& index, const std:
 
 // opening
 
-/// `<sum>  <name>` by name.
+/// Parses lines of `<sum>  <name>`; sums by name.
 std::map<std::string, std::string> readSums(const fs::path& file) {
     constexpr std::size_t digits = 64;
-    std::istringstream lines(files::wholeText(file, "the sums of a bundle"));
+    std::istringstream lines(files::wholeText(file, "a bundle's checksums"));
     std::map<std::string, std::string> sums;
     for (std::string line; std::getline(lines, line);) {
         if (line.size() < digits + 3 || line.compare(digits, 2, "  ") != 0)
@@ -170,14 +171,14 @@ std::map<std::string, std::string> readSums(const fs::path& file) {
     return sums;
 }
 
-/// The folder that all entries are in.
+/// The folder that contains all entries.
 std::string topOf(const fs::path& archive, const std::vector<std::string>& names) {
     const std::string top = names.empty() ? "" : names.front().substr(0, names.front().find('/') + 1);
     const bool isBundle = !top.empty() && std::ranges::find(names, top + sumsName) != names.end() &&
                           std::ranges::all_of(names, [&](const std::string& name) { return name.starts_with(top); });
     if (!isBundle)
         throw InputError(
-            fmt::format("'{}': is no bundle, expected one folder with {} in it", archive.string(), sumsName));
+            fmt::format("'{}': is not a bundle, expected one folder that contains {}", archive.string(), sumsName));
     return top;
 }
 
@@ -187,20 +188,21 @@ void checkSums(const fs::path& folder, const std::string& top, const std::vector
         const std::string name = entry.substr(top.size());
         if (name == sumsName) continue;
         const auto sum = sums.find(name);
-        if (sum == sums.end()) throw InputError(fmt::format("'{}': is in the bundle, but not in {}", name, sumsName));
+        if (sum == sums.end())
+            throw InputError(fmt::format("'{}': is in the bundle but not listed in {}", name, sumsName));
         if (sha256OfFile(folder / name, std::uintmax_t(-1)) != sum->second)
-            throw InputError(fmt::format("'{}': was altered, its SHA-256 is not that of {}", name, sumsName));
+            throw InputError(fmt::format("'{}': was altered, its SHA-256 differs from that in {}", name, sumsName));
         sums.erase(sum);
     }
-    if (!sums.empty()) throw InputError(fmt::format("'{}': is missing in the bundle", sums.begin()->first));
+    if (!sums.empty()) throw InputError(fmt::format("'{}': is missing from the bundle", sums.begin()->first));
 }
 
-/// Each run's inputs are in the bundle, as the run has read them.
+/// Checks that the bundle contains the inputs of every run, as the run read them.
 void checkInputs(const OpenedBundle& bundle) {
     for (const InputHash& input : inputsOf(bundle.runs)) {
         const fs::path file = bundle.folder / placeOf(input);
         if (sha256OfFile(file) != input.sha256)
-            throw InputError(fmt::format("'{}': is not what the runs have read as '{}'", placeOf(input), input.file));
+            throw InputError(fmt::format("'{}': differs from the '{}' that the runs read", placeOf(input), input.file));
     }
 }
 

@@ -9,7 +9,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Settings that decide nothing about the state are those that RunSpec has by itself.
+/// Settings that do not affect the state get the defaults of RunSpec.
 RunSpec specOf(const StoredRun& run) {
     RunSpec spec = specFromKey(run);
     const RunSpec usual;

@@ -1,4 +1,4 @@
-// What of a result every machine repeats bit for bit: the state after the last frame, as its hash.
+// The part of a result that every machine reproduces bit for bit: the hash of the state after the last frame.
 //
 // Threads: any.
 #pragma once
@@ -11,15 +11,15 @@
 
 namespace dustbench::bench {
 
-/// Runs that simulate the same and differ in repetition, threads, pictures or metrics alone.
+/// Runs of one simulation, which differ only in repetition, threads, pictures or metrics.
 struct ExactRun {
-    std::vector<std::string> runIds;    ///< of those that are done
-    std::string stateHash, methodHash;  ///< that they all have
-    RunSpec spec;                       ///< the least that repeats them: no pictures, no volumes, no metrics
+    std::vector<std::string> runIds;    ///< runs that are done
+    std::string stateHash, methodHash;  ///< the same for all of them
+    RunSpec spec;                       ///< the minimum to repeat them: no pictures, volumes or metrics
 };
 
-/// In the order of run ids, only of runs that are done. Throws InputError if two runs of one simulation have different
-/// hashes, or a run does not say what was measured.
+/// Groups the runs that are done, in the order of run ids. Throws InputError if two runs of one simulation have
+/// different hashes, or if a run has no key.
 [[nodiscard]] std::vector<ExactRun> exactRuns(const StoredRuns& runs);
 
 /// `state_hash is 1, expected 2; method_hash …`; empty if both are the same.

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t blockBytes = 512;
 
-/// The first block of an entry; texts end with a zero unless they fill their field, numbers are octal.
+/// The first block of an entry. Texts end with a zero byte unless they fill their field; numbers are octal.
 struct Header {
     std::array<char, 100> name{};
     std::array<char, 8> mode{}, owner{}, group{};
@@ -37,7 +37,7 @@ struct Header {
 };
 static_assert(sizeof(Header) == blockBytes);
 
-/// In octal digits, up to the 0 at the field's end.
+/// Writes octal digits. The last byte of the field stays zero.
 template <std::size_t size>
 void setNumber(std::array<char, size>& field, std::uintmax_t number) {
     for (std::size_t digit = size - 1; digit-- > 0; number /= 8) field[digit] = static_cast<char>('0' + number % 8);
@@ -48,7 +48,7 @@ std::string textIn(const std::array<char, size>& field) {
     return {field.data(), strnlen(field.data(), size)};
 }
 
-/// False if it is no octal number.
+/// False if the field is not an octal number.
 template <std::size_t size>
 bool readNumber(const std::array<char, size>& field, std::uintmax_t& number) {
     const std::string text = textIn(field);
@@ -57,7 +57,7 @@ bool readNumber(const std::array<char, size>& field, std::uintmax_t& number) {
     return error == std::errc() && stop == end;
 }
 
-/// Of all bytes of the header, with spaces in the place of the sum.
+/// Sum of all bytes of the header, with spaces in place of the sum itself.
 unsigned sumOf(Header header) {
     header.sum.fill(' ');
     std::array<unsigned char, blockBytes> bytes{};
@@ -67,7 +67,7 @@ unsigned sumOf(Header header) {
 
 constexpr std::uintmax_t mostBytes = 077777777777;
 
-/// Splits the name at a `/`, so that both fields can hold their part.
+/// Splits the name at a `/` into parts that fit the two fields.
 bool setName(Header& header, const std::string& name) {
     std::size_t slash = std::string::npos;
     if (name.size() > header.name.size()) {
@@ -83,7 +83,7 @@ std::uintmax_t padding(std::uintmax_t bytes) {
     return (blockBytes - bytes % blockBytes) % blockBytes;
 }
 
-/// Owns: an archive that is read block by block.
+/// Reads an archive block by block. Owns: the stream.
 class TarReader {
  public:
     TarReader(const fs::path& archive, const fs::path& folder)
@@ -91,14 +91,14 @@ class TarReader {
         if (!stream_) refuse(std::strerror(errno));
     }
 
-    /// The name of the next file, which is written below the folder; empty at the end.
+    /// Extracts the next file below the folder and returns its name; empty at the end.
     std::string next() {
         Header header;
         read(reinterpret_cast<char*>(&header), blockBytes);
         if (isZero(header)) return "";
         const std::string name = checkedName(header);
         std::uintmax_t bytes = 0;
-        if (!readNumber(header.bytes, bytes)) refuse(fmt::format("the length of '{}' is no number", name));
+        if (!readNumber(header.bytes, bytes)) refuse(fmt::format("the length of '{}' is not a number", name));
         extract(name, bytes);
         return name;
     }
@@ -112,17 +112,17 @@ class TarReader {
         return std::memcmp(&header, zeros.data(), blockBytes) == 0;
     }
     void read(char* to, std::size_t bytes) {
-        if (!stream_.read(to, static_cast<std::streamsize>(bytes))) refuse("is cut short or no bundle of dustbench");
+        if (!stream_.read(to, static_cast<std::streamsize>(bytes))) refuse("is truncated or not a dustbench bundle");
     }
     std::string checkedName(const Header& header) {
         std::uintmax_t sum = 0;
         if (textIn(header.magic) != "ustar" || !readNumber(header.sum, sum) || sum != sumOf(header))
-            refuse("is damaged or no bundle of dustbench: the header of an entry is none");
+            refuse("is damaged or not a dustbench bundle: invalid entry header");
         const std::string folder = textIn(header.folder);
         std::string name = (folder.empty() ? "" : folder + "/") + textIn(header.name);
-        if (header.type != '0') refuse(fmt::format("'{}' is no regular file", name));
-        if (name.empty() || !isWithin(name)) refuse(fmt::format("'{}' leads out of the bundle", name));
-        if (!names_.insert(name).second) refuse(fmt::format("'{}' is there twice", name));
+        if (header.type != '0') refuse(fmt::format("'{}' is not a regular file", name));
+        if (name.empty() || !isWithin(name)) refuse(fmt::format("'{}' points outside the bundle", name));
+        if (!names_.insert(name).second) refuse(fmt::format("'{}' appears twice", name));
         return name;
     }
     void extract(const std::string& name, std::uintmax_t bytes) {
@@ -164,9 +164,9 @@ void TarWriter::pad(std::uintmax_t bytes) {
 
 void TarWriter::header(const std::string& name, std::uintmax_t bytes) {
     Header header;
-    if (!setName(header, name)) throw InputError(fmt::format("'{}': its name is too long for an archive", name));
+    if (!setName(header, name)) throw InputError(fmt::format("'{}': the name is too long for an archive", name));
     if (bytes > mostBytes)
-        throw InputError(fmt::format("'{}': has {} bytes, allowed in an archive: {}", name, bytes, mostBytes));
+        throw InputError(fmt::format("'{}': is {} bytes long, allowed in an archive: {}", name, bytes, mostBytes));
     setNumber(header.mode, 0644);
     setNumber(header.owner, 0);
     setNumber(header.group, 0);
@@ -185,7 +185,7 @@ void TarWriter::add(const std::string& name, const fs::path& file) {
     for (std::uintmax_t left = bytes; left > 0;) {
         const auto count = static_cast<std::size_t>(std::min<std::uintmax_t>(left, block.size()));
         if (!in.read(block.data(), static_cast<std::streamsize>(count)))
-            throw InputError(fmt::format("'{}': became shorter while it was read", file.string()));
+            throw InputError(fmt::format("'{}': was truncated while it was read", file.string()));
         write(block.data(), count);
         left -= count;
     }

@@ -28,7 +28,7 @@ class TarFile : public testing::Test {
     [[nodiscard]] std::string refusal() const {
         return inputError([&] { (void)extractTar(path() / "a.tar", path() / "out"); });
     }
-    /// An archive made by `tar` itself, in the folder.
+    /// Runs `tar` in the folder.
     void tar(const std::string& arguments) const {
         const std::string command = "cd '" + path().string() + "' && tar " + arguments;
         ASSERT_EQ(std::system(command.c_str()), 0) << command;
@@ -92,17 +92,17 @@ TEST_F(TarFile, ReadsWhatTarWrites) {
 TEST_F(TarFile, WhatIsNoFileBelowTheFolderIsRefused) {
     write("one/two", "2");
     tar("--format=ustar -cf a.tar one");
-    EXPECT_THAT(refusal(), HasSubstr("'one/' is no regular file"));
+    EXPECT_THAT(refusal(), HasSubstr("'one/' is not a regular file"));
     tar("--format=ustar -P --transform 's,one,../one,' -cf a.tar one/two");
-    EXPECT_THAT(refusal(), HasSubstr("'../one/two' leads out of the bundle"));
+    EXPECT_THAT(refusal(), HasSubstr("'../one/two' points outside the bundle"));
     EXPECT_FALSE(fs::exists(path() / "one.tar"));
     tar("--format=ustar -P -cf a.tar \"$PWD/one/two\"");
-    EXPECT_THAT(refusal(), HasSubstr("leads out of the bundle"));
+    EXPECT_THAT(refusal(), HasSubstr("points outside the bundle"));
     tar("--format=ustar -cf a.tar one/two one/two --hard-dereference");
-    EXPECT_THAT(refusal(), HasSubstr("'one/two' is there twice"));
+    EXPECT_THAT(refusal(), HasSubstr("'one/two' appears twice"));
     fs::create_symlink("/etc/passwd", path() / "link");
     tar("--format=ustar -cf a.tar link");
-    EXPECT_THAT(refusal(), HasSubstr("'link' is no regular file"));
+    EXPECT_THAT(refusal(), HasSubstr("'link' is not a regular file"));
 }
 
 TEST_F(TarFile, WhatIsDamagedIsRefused) {
@@ -112,20 +112,20 @@ TEST_F(TarFile, WhatIsDamagedIsRefused) {
     writer.finish();
     const std::string whole = bytesOf("whole.tar");
     std::mt19937 engine(11);
-    for (int i = 0; i < 300; ++i) {  // a bit of a header
+    for (int i = 0; i < 300; ++i) {  // flip a bit of a header
         std::string damaged = whole;
         const std::size_t at = std::uniform_int_distribution<std::size_t>(0, 511)(engine);
         damaged[at] = static_cast<char>(static_cast<unsigned char>(damaged[at]) ^ (1U << (engine() % 8)));
         write("a.tar", damaged);
-        EXPECT_THAT(refusal(), AnyOf(HasSubstr("header of an entry"))) << at;
+        EXPECT_THAT(refusal(), AnyOf(HasSubstr("invalid entry header"))) << at;
     }
     for (const std::size_t length : {std::size_t{0}, std::size_t{100}, std::size_t{512}, std::size_t{1400},
                                      std::size_t{2048}, whole.size() - 1024}) {
         write("a.tar", whole.substr(0, length));
-        EXPECT_THAT(refusal(), HasSubstr("is cut short")) << length;
+        EXPECT_THAT(refusal(), HasSubstr("is truncated")) << length;
     }
     write("a.tar", randomBytes(5000, 3));
-    EXPECT_THAT(refusal(), HasSubstr("no bundle of dustbench"));
+    EXPECT_THAT(refusal(), HasSubstr("not a dustbench bundle"));
     fs::remove(path() / "a.tar");
     EXPECT_THAT(refusal(), HasSubstr("No such file"));
 }

@@ -21,7 +21,7 @@ std::optional<double> asNumber(const std::string& text) {
     return number;
 }
 
-/// Numbers sort before texts, to make the order total.
+/// Numbers sort before texts, which makes the order total.
 bool valueLess(const std::string& a, const std::string& b) {
     const auto x = asNumber(a), y = asNumber(b);
     if (x && y && *x != *y) return *x < *y;
@@ -29,7 +29,7 @@ bool valueLess(const std::string& a, const std::string& b) {
     return a < b;
 }
 
-/// Moves runs that are one measurement in both folders aside.
+/// Sets aside runs that are the same measurement in both folders.
 void setCopiesAside(FolderCell& cell) {
     std::erase_if(cell.a.done, [&cell](const StoredRun* mine) {
         const auto theirs =
@@ -104,7 +104,7 @@ std::vector<std::string> tellingNames(const std::vector<FolderCell>& cells) {
 
 std::vector<std::string> tellingNames(const std::vector<CellIdentity>& cells) {
     std::vector<std::string> order;
-    std::map<std::string, std::map<std::string, std::set<std::string>>> valuesByMethod;  // of each name
+    std::map<std::string, std::map<std::string, std::set<std::string>>> valuesByMethod;  // values of each name
     std::map<std::string, std::size_t> cellsByMethod;
     std::map<std::string, std::map<std::string, std::size_t>> holders;
     for (const CellIdentity& identity : cells) {

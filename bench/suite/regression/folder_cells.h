@@ -1,4 +1,4 @@
-// Groups the runs of two results folders into cells: runs that are equal in everything except the repetition.
+// Groups the runs of two results folders into configurations (cells): runs that differ only in the repetition.
 #pragma once
 
 #include <string>
@@ -14,11 +14,11 @@ struct ResultsSide {
     StoredRuns runs;
 };
 
-/// One cell's runs in one folder. Points into it.
+/// The runs of one configuration in one folder. Points into the folder's runs.
 struct CellRuns {
     std::vector<const StoredRun*> done;     ///< and valid
-    std::vector<const StoredRun*> invalid;  ///< done, but no verdict may use them
-    std::vector<const StoredRun*> copied;   ///< the same measurement as one of the other folder
+    std::vector<const StoredRun*> invalid;  ///< done, but unusable for verdicts
+    std::vector<const StoredRun*> copied;   ///< the same measurement as a run in the other folder
     std::vector<const StoredRun*> failed;   ///< including timeouts
     std::vector<const StoredRun*> skipped;  ///< the method does not support the scene
     [[nodiscard]] std::size_t count() const {
@@ -26,7 +26,7 @@ struct CellRuns {
     }
 };
 
-/// The fields that distinguish a cell, in the order of the run's key: `method`, `scene`, `drive`, `p.particles`,
+/// The fields that identify a configuration, in the order of the run's key: `method`, `scene`, `drive`, `p.particles`,
 /// `frames` …
 using CellIdentity = KeyFields;
 /// Empty if there is no such field.
@@ -34,24 +34,24 @@ using CellIdentity = KeyFields;
 /// Field by field; numbers numerically.
 [[nodiscard]] bool identityLess(const CellIdentity& a, const CellIdentity& b);
 
-/// Adds a run to those of its status and validity.
+/// Adds a run to the list for its status and validity.
 void add(CellRuns& runs, const StoredRun& run);
 
 struct FolderCell {
     CellIdentity identity;
     CellRuns a, b;
-    /// Empty if the cell has no such field.
+    /// Empty if there is no such field.
     [[nodiscard]] std::string valueOf(const std::string& name) const { return bench::valueOf(identity, name); }
 };
 
-/// The frames that get metrics are not part of a cell: metrics are computed after the timed frames, in the first
-/// repetition only. Throws InputError if a run does not contain its key.
+/// Ignores which frames get metrics: metrics are computed after the timed frames, in the first repetition only. Throws
+/// InputError if a run does not contain its key.
 [[nodiscard]] CellIdentity identityOf(const StoredRun& run);
 
 /// Sorted by identityLess. A run and its copy in the other folder are `copied`, not `done`.
 [[nodiscard]] std::vector<FolderCell> cellsOf(const ResultsSide& a, const ResultsSide& b);
 
-/// The fields needed besides the method to distinguish cells: those with several values within one method.
+/// The fields needed in addition to the method to tell configurations apart: those with several values in one method.
 [[nodiscard]] std::vector<std::string> tellingNames(const std::vector<CellIdentity>& cells);
 [[nodiscard]] std::vector<std::string> tellingNames(const std::vector<FolderCell>& cells);
 

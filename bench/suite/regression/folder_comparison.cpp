@@ -13,7 +13,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// ln of the time in ms; empty if there is no time above 0.
+/// ln of the time in ms; empty without a time above 0.
 std::optional<double> logMs(const StoredRun& run, const std::string& column) {
     const auto number = numberIn(run, column);
     if (!number || !(*number > 0) || !std::isfinite(*number)) return std::nullopt;
@@ -44,7 +44,7 @@ JudgedCell judge(const FolderCell* cell, const std::string& column, const std::v
     return judged;
 }
 
-/// One number per repetition: the mean over the cells, if all have a value.
+/// One number per repetition: the mean over the configurations, if all have a value.
 std::vector<double> meansOverCells(const std::vector<const FolderCell*>& cells, const CellRuns FolderCell::*side,
                                    const std::string& column) {
     std::map<std::string, std::pair<double, std::size_t>> sums;  // by repetition

@@ -40,7 +40,7 @@ StoredRun runOf(const std::string& method, int particles, int repetition, double
     return run;
 }
 
-/// Two methods with two numbers of particles; times are `factor` times the usual, ±1 %.
+/// Two methods with two numbers of particles; times are `factor` times the normal ones, ±1 %.
 StoredRuns session(double factor, int repetitions = 6) {
     StoredRuns runs;
     for (const char* method : {"haze", "fog"})
@@ -87,7 +87,7 @@ TEST(FolderComparison, FindsTheRatioOfEveryCellAndOfAllTogether) {
 }
 
 TEST(FolderComparison, AllTogetherCountsWhatARoundHasInCommonOnce) {
-    // Each round of A is slower or faster as a whole: four cells give no more information about it than one.
+    // Each round of A is slower or faster as a whole: four configurations give no more information about it than one.
     StoredRuns a = session(1), b = session(1);
     for (StoredRuns* runs : {&a, &b})
         for (auto& [id, run] : *runs) {
@@ -112,7 +112,8 @@ TEST(FolderComparison, TooFewRunsResolveNothingAndAreNoRegression) {
 TEST(FolderComparison, OtherMachinesAreAnObstacleUnlessAllowed) {
     StoredRuns other = session(1);
     for (auto& [id, run] : other) run.provenance["cpu"] = "Cpu 2";
-    EXPECT_THAT(compare(session(1), other).obstacles, ElementsAre("cpu: 'Cpu 1' in A and 'Cpu 2' in B (4 cells)"));
+    EXPECT_THAT(compare(session(1), other).obstacles,
+                ElementsAre("cpu: 'Cpu 1' in A and 'Cpu 2' in B (4 configurations)"));
     EXPECT_THAT(compare(session(1), other).judged, IsEmpty());
     const FolderComparison allowed = compare(session(1), other, true);
     EXPECT_THAT(allowed.obstacles, IsEmpty());
@@ -121,13 +122,14 @@ TEST(FolderComparison, OtherMachinesAreAnObstacleUnlessAllowed) {
     // One run from another machine in the same folder.
     const auto mixed = with(session(1), "haze-200-r4", [](StoredRun& run) { run.provenance["build_type"] = "Debug"; });
     EXPECT_THAT(compare(mixed, session(1)).obstacles,
-                ElementsAre("build_type: 'Release' in A and 'Debug' in A (1 cell)"));
+                ElementsAre("build_type: 'Release' in A and 'Debug' in A (1 configuration)"));
 }
 
 TEST(FolderComparison, OtherWorkIsAnObstacleAlways) {
     const auto other = with(session(1), "fog-200-r3", [](StoredRun& run) { run.stateHash = "another"; });
-    EXPECT_THAT(compare(session(1), other, true).obstacles,
-                ElementsAre(AllOf(HasSubstr("fog particles=200: different work"), HasSubstr("'another' in B"))));
+    EXPECT_THAT(
+        compare(session(1), other, true).obstacles,
+        ElementsAre(AllOf(HasSubstr("particles=200: the runs did different work"), HasSubstr("'another' in B"))));
     const auto inputs = with(session(1), "fog-200-r3", [](StoredRun& run) { run.inputs[0].sha256 = "02"; });
     EXPECT_THAT(compare(inputs, session(1), true).obstacles, ElementsAre(HasSubstr("scenes/plain.toml")));
 }
@@ -136,8 +138,8 @@ TEST(FolderComparison, SaysWhatTheNearestDiffersInWhereNothingIsInBoth) {
     StoredRuns other = session(1);
     for (auto& [id, run] : other) run.provenance["key"] += "volumes=1\n";
     EXPECT_THAT(compare(session(1), other).obstacles,
-                ElementsAre(AllOf(HasSubstr("4 cells of 24 runs in A"), HasSubstr("differ in volumes"))));
-    EXPECT_THAT(compare(session(1), {}).obstacles, ElementsAre(HasSubstr("0 cells of 0 runs in B")));
+                ElementsAre(AllOf(HasSubstr("4 configurations of 24 runs in A"), HasSubstr("differ in volumes"))));
+    EXPECT_THAT(compare(session(1), {}).obstacles, ElementsAre(HasSubstr("0 configurations of 0 runs in B")));
 }
 
 TEST(FolderComparison, NothingIsSilent) {
@@ -157,7 +159,7 @@ TEST(FolderComparison, NothingIsSilent) {
     EXPECT_THAT(result.remarks, Contains("fog particles=200: only in B, 6 runs"));
     EXPECT_THAT(result.remarks, Contains("haze particles=200: 2 of 6 runs failed in B: too long"));
     EXPECT_THAT(result.remarks, Contains("B: 1 of 22 runs carry warnings, the first: busy"));
-    EXPECT_THAT(result.remarks, Contains("compiler: '' in A and 'GNU 13' in B (3 cells)"));
+    EXPECT_THAT(result.remarks, Contains("compiler: '' in A and 'GNU 13' in B (3 configurations)"));
     EXPECT_EQ(result.broken.size(), 1u);
 }
 
@@ -168,7 +170,7 @@ TEST(FolderComparison, InvalidRunsAreLeftOutWithTheirCountAndBreakACellThatWasVa
         b.at(fmt::format("fog-200-r{}", k)).cells["frame_ms_median"] = "9999";
     }
     const FolderComparison both = compare(a, b);
-    EXPECT_EQ(both.judged.size(), 4u);  // three cells, and all of them
+    EXPECT_EQ(both.judged.size(), 4u);  // three configurations, and all together
     EXPECT_NEAR(both.judged.back().result.ratio, 1.001, 1e-4);
     EXPECT_THAT(both.remarks,
                 Contains("B: 6 of 24 runs are invalid and left out of claims, fits and verdicts: clipped is 4"));
@@ -188,7 +190,7 @@ TEST(FolderComparison, ACopiedRunIsNoMeasurementOfItsOwn) {
     };
     const StoredRuns a = started(session(1));
     EXPECT_THAT(compare(a, a).obstacles, ElementsAre(HasSubstr("24 runs of B are copied from A")));
-    // Measured in the same second, with other numbers.
+    // Measured in the same second, with different numbers.
     EXPECT_THAT(compare(a, started(session(1.001))).obstacles, IsEmpty());
     StoredRuns b = started(session(1.1));
     for (int k = 1; k <= 6; ++k) b[fmt::format("fog-200-r{}", k)] = a.at(fmt::format("fog-200-r{}", k));
@@ -206,8 +208,8 @@ TEST(FolderComparison, AnotherQuotaOrEnvironmentIsSaid) {
         run.provenance["environment"] = "LP_NUM_THREADS=2";
     }
     const FolderComparison result = compare(session(1), b);
-    EXPECT_THAT(result.remarks, Contains("quota_cores: '' in A and '0.5' in B (4 cells)"));
-    EXPECT_THAT(result.remarks, Contains("environment: '' in A and 'LP_NUM_THREADS=2' in B (4 cells)"));
+    EXPECT_THAT(result.remarks, Contains("quota_cores: '' in A and '0.5' in B (4 configurations)"));
+    EXPECT_THAT(result.remarks, Contains("environment: '' in A and 'LP_NUM_THREADS=2' in B (4 configurations)"));
 }
 
 TEST(FolderComparison, TheCsvHasARowForEveryCellWhateverBecameOfIt) {

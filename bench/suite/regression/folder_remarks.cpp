@@ -19,7 +19,7 @@ std::string quantity(std::size_t count, std::string_view what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-/// The cell's done runs with the letter of their folder, A first.
+/// The configuration's runs that are done, with the letter of their folder, A first.
 std::vector<std::pair<const StoredRun*, char>> doneRuns(const FolderCell& cell) {
     std::vector<std::pair<const StoredRun*, char>> runs;
     runs.reserve(cell.a.done.size() + cell.b.done.size());
@@ -28,7 +28,7 @@ std::vector<std::pair<const StoredRun*, char>> doneRuns(const FolderCell& cell) 
     return runs;
 }
 
-/// `cpu: 'X' in A and 'Y' in B`, each once, with the number of affected cells.
+/// `cpu: 'X' in A and 'Y' in B`, with the number of affected configurations.
 std::map<std::string, std::size_t> differencesWithin(const std::vector<FolderCell>& cells,
                                                      std::span<const std::string_view> fields) {
     std::map<std::string, std::size_t> cellCounts;
@@ -49,7 +49,7 @@ std::vector<std::string> withCounts(const std::map<std::string, std::size_t>& ce
     std::vector<std::string> sentences;
     sentences.reserve(cellCounts.size());
     for (const auto& [sentence, count] : cellCounts)
-        sentences.push_back(fmt::format("{} ({})", sentence, quantity(count, "cell")));
+        sentences.push_back(fmt::format("{} ({})", sentence, quantity(count, "configuration")));
     return sentences;
 }
 
@@ -85,16 +85,16 @@ void addBuildsAndWarnings(const ResultsSide& side, char letter, std::vector<std:
 }  // namespace
 
 std::string FolderRemarks::nothingInCommon() const {
-    std::string text = fmt::format("no cell is done and valid in both: {} of {} in A, {} of {} in B",
+    std::string text = fmt::format("no configuration is done and valid in both: {} of {} in A, {} of {} in B",
                                    quantity(static_cast<std::size_t>(std::ranges::count_if(
                                                 cells_, [](const auto& cell) { return cell.a.count() > 0; })),
-                                            "cell"),
+                                            "configuration"),
                                    quantity(a_.runs.size(), "run"),
                                    quantity(static_cast<std::size_t>(std::ranges::count_if(
                                                 cells_, [](const auto& cell) { return cell.b.count() > 0; })),
-                                            "cell"),
+                                            "configuration"),
                                    quantity(b_.runs.size(), "run"));
-    // If nearly everything is equal, the difference is likely the mistake.
+    // If nearly everything is equal, the difference is probably a mistake.
     const auto mine = std::ranges::find_if(cells_, [](const FolderCell& cell) { return !cell.a.done.empty(); });
     std::vector<std::string> nearest;
     for (const FolderCell& theirs : cells_) {
@@ -107,7 +107,7 @@ std::string FolderRemarks::nothingInCommon() const {
         if (nearest.empty() || names.size() < nearest.size()) nearest = names;
     }
     for (std::size_t i = 0; i < nearest.size(); ++i)
-        text += (i ? ", " : "; the first of A and what is nearest to it in B differ in ") + nearest[i];
+        text += (i ? ", " : "; the first of A and the most similar one of B differ in ") + nearest[i];
     return text;
 }
 
@@ -116,7 +116,7 @@ std::string FolderRemarks::copies() const {
     for (const FolderCell& cell : cells_) count += cell.b.copied.size();
     if (count == 0) return "";
     return fmt::format(
-        "{} of B {} copied from A, or A's from B: one measurement, which shows no difference and is left out",
+        "{} of B {} copied from A, or A's from B: left out, because a measurement cannot be compared with itself",
         quantity(count, "run"), count == 1 ? "is" : "are");
 }
 
@@ -135,9 +135,9 @@ std::vector<std::string> FolderRemarks::obstacles() const {
             if (file.empty() && run->stateHash == first->stateHash) continue;
             const std::string what = file.empty() ? fmt::format("state_hash '{}' in {} and '{}' in {}",
                                                                 first->stateHash, firstLetter, run->stateHash, letter)
-                                                  : fmt::format("{} is not the same in {} ({}) and {} ({})", file,
+                                                  : fmt::format("{} differs between {} ({}) and {} ({})", file,
                                                                 firstLetter, first->runId, letter, run->runId);
-            list.push_back(fmt::format("{}: different work was measured: {}", nameOf(cell), what));
+            list.push_back(fmt::format("{}: the runs did different work: {}", nameOf(cell), what));
             break;
         }
     }
@@ -166,7 +166,7 @@ std::vector<std::string> FolderRemarks::rest() const {
                                                quantity(runs->count(), "run"), what, letter, bad->front()->reason));
         }
         if (isInBoth(cell) && cell.a.done.front()->methodHash != cell.b.done.front()->methodHash)
-            list.push_back(fmt::format("{}: the method's own state ends up different (method_hash)", nameOf(cell)));
+            list.push_back(fmt::format("{}: the final state of the method differs (method_hash)", nameOf(cell)));
     }
     return list;
 }

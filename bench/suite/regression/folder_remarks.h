@@ -1,4 +1,4 @@
-// Notes on two results folders besides their times: why they cannot be compared, and other differences.
+// Remarks on two results folders: why they cannot be compared, and differences other than times.
 #pragma once
 
 #include <string>
@@ -15,10 +15,10 @@ class FolderRemarks {
                   const std::vector<std::string>& tellingNames)
         : a_(a), b_(b), cells_(cells), tellingNames_(tellingNames) {}
 
-    /// No common cell, only copied runs, or cells whose runs did different work: other inputs, or a different final
-    /// state.
+    /// No common configuration, only copied runs, or configurations whose runs did different work: other inputs, or a
+    /// different final state.
     [[nodiscard]] std::vector<std::string> obstacles() const;
-    /// Cells whose runs are from different machines or builds.
+    /// Configurations whose runs are from different machines or builds.
     [[nodiscard]] std::vector<std::string> machines() const;
     /// Runs in only one folder, failed and invalid runs, runs from debug builds or with warnings, and other differences
     /// between the two programs.
@@ -26,7 +26,7 @@ class FolderRemarks {
 
  private:
     [[nodiscard]] std::string nothingInCommon() const;
-    /// How many runs are in both folders by copying, as a sentence; empty if none are.
+    /// The number of runs that were copied between the folders, as a sentence; empty if there are none.
     [[nodiscard]] std::string copies() const;
     [[nodiscard]] std::string nameOf(const FolderCell& cell) const { return labelOf(cell, tellingNames_); }
 

@@ -17,7 +17,7 @@ std::string withoutPrefix(const std::string& name) {
     return name.starts_with("p.") ? name.substr(2) : name;
 }
 
-/// Every field name of any cell, in order of first appearance; then the parameters, sorted.
+/// All field names, in order of first appearance; then the parameters, sorted.
 std::vector<std::string> identityColumns(const std::vector<FolderCell>& cells) {
     std::vector<std::string> names, parameters;
     for (const FolderCell& cell : cells)

@@ -14,16 +14,16 @@ namespace dustbench::bench {
 
 [[nodiscard]] TextRows tabulate(const FolderComparison& comparison);
 
-/// The columns of comparison.csv before and after those that identify the cells.
+/// The columns of comparison.csv before and after those that identify the configuration.
 [[nodiscard]] std::vector<std::string> comparisonColumnsBefore();
 [[nodiscard]] std::vector<std::string> comparisonColumnsAfter();
 
-/// All comparisons, then the cells that are done in only one folder. `percent`: the regression threshold; empty: none
-/// given.
+/// All comparisons, then the configurations that are done in only one folder. `percent`: the regression threshold;
+/// empty: none.
 [[nodiscard]] std::string comparisonCsv(const FolderComparison& comparison, std::optional<double> percent);
 
-/// The same in Markdown for a merge request: a sentence in bold, a table of what `isRegression` names, and all rows in
-/// a fold.
+/// The same in Markdown for a merge request: a sentence in bold, a table of the regressions (`isRegression`), and all
+/// rows in a collapsed section.
 [[nodiscard]] std::string comparisonMarkdown(const FolderComparison& comparison, std::string_view a, std::string_view b,
                                              const std::function<bool(const JudgedCell&)>& isRegression);
 

@@ -11,7 +11,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// By stage; told apart by colour-blind readers as well.
+/// By stage. Colour-blind readers can distinguish them.
 constexpr std::array<ImU32, stageNames.size()> stageColours{
     IM_COL32(150, 150, 150, 255), IM_COL32(204, 121, 167, 255), IM_COL32(230, 159, 0, 255), IM_COL32(240, 228, 66, 255),
     IM_COL32(0, 158, 115, 255),   IM_COL32(86, 180, 233, 255),  IM_COL32(213, 94, 0, 255),  IM_COL32(0, 114, 178, 255)};
@@ -33,7 +33,7 @@ std::vector<double> totalsOf(const Viewer& viewer, std::size_t half) {
 
 std::vector<double> ofWindow(const Viewer& viewer) {
     std::vector<double> values = valuesOver(viewer, [](const FrameCost& frame) { return frame.window; });
-    if (values.size() > 1) values.pop_back();  // the last frame is not over yet
+    if (values.size() > 1) values.pop_back();  // the last frame has not ended yet
     return values;
 }
 
@@ -48,7 +48,7 @@ void showRow(std::initializer_list<std::string> cells) {
     }
 }
 
-/// Milliseconds of halves, world and window.
+/// Table of milliseconds of halves, world and window.
 void showPercentiles(const Viewer& viewer) {
     if (!beginTable("percentiles", 4)) return;
     const auto row = [](const char* name, const std::vector<double>& values) {
@@ -66,7 +66,7 @@ std::string inMegabytes(std::size_t bytes) {
     return bytes == 0 ? "" : fmt::format("{:.2f}", static_cast<double>(bytes) / 1e6);
 }
 
-/// One column a frame, the latest at the right; its stages lie upon each other. What is above the scale is cut off.
+/// Draws one column per frame, the latest on the right, with its stages stacked. Values above the scale are cut off.
 void showStack(const Viewer& viewer, std::size_t half, double scaleMs) {
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const ImVec2 size(ImGui::GetContentRegionAvail().x, 3 * ImGui::GetFontSize());
@@ -98,7 +98,7 @@ void showSwatch(ImU32 colour) {
     ImGui::SameLine();
 }
 
-/// The median of every stage that either half has; its colours are the key to the stacks.
+/// Table of the median of every stage that either half has. Its colours are the legend of the chart.
 void showStages(const Viewer& viewer, const std::vector<std::size_t>& halves) {
     if (!beginTable("stages", 3)) return;
     for (const char* title : {"median of", "A ms", "B ms"}) {
@@ -133,7 +133,7 @@ void showTimes(const Viewer& viewer, WidgetMap& widgets) {
                                scaleMs, maximum(totalsOf(viewer, half)),
                                viewer.session().isSinceStart(half == 0 ? Half::a : Half::b)
                                    ? ""
-                                   : "; joined later, Restart shows what a run does"));
+                                   : "; joined later, Restart shows it as in a run"));
         showStack(viewer, half, scaleMs);
         widgets.note(half == 0 ? "Costs/stack of A" : "Costs/stack of B");
     }
@@ -141,7 +141,7 @@ void showTimes(const Viewer& viewer, WidgetMap& widgets) {
     showRemark(fmt::format("{} frames of this window, not a measurement", viewer.costs().size()));
 }
 
-/// `Costs: A 3.1 ms, B 5.2 ms`: what is seen of them while they are closed.
+/// `Costs: A 3.1 ms, B 5.2 ms`: the title, which is visible while the section is closed.
 std::string titleOf(const Viewer& viewer) {
     std::string title = "Costs";
     if (viewer.costs().empty()) return title;
@@ -156,13 +156,13 @@ void showMemoryOf(const MethodHost& host, const char* title) {
     showRow({title, "CPU MB", "GPU MB"});
     for (const MemoryUse& use : host.method().memory()) showRow({use.structure, inMegabytes(use.cpuBytes), ""});
     for (const auto& [structure, bytes] : host.gpuLedger().entries()) showRow({structure, "", inMegabytes(bytes)});
-    showRow({"together", inMegabytes(static_cast<std::size_t>(host.cpuBytes())),
+    showRow({"total", inMegabytes(static_cast<std::size_t>(host.cpuBytes())),
              inMegabytes(static_cast<std::size_t>(host.gpuBytes()))});
     ImGui::EndTable();
     showText(fmt::format("{} primitives", host.method().primitives()));
 }
 
-/// A section that is closed at first, noted by `name`.
+/// A section that is initially closed, recorded under `name`.
 bool isOpen(const std::string& title, const std::string& name, WidgetMap& widgets) {
     const bool open = ImGui::CollapsingHeader((title + "###" + name).c_str());
     widgets.note(name);

@@ -1,4 +1,4 @@
-// What the frames of the window cost: times of A and B by stage, the window's own share, memory by structure.
+// The costs of the window's frames: times of A and B by stage, the window's own share, memory by structure.
 //
 // Units: milliseconds, bytes. Threads: the canvas's, within PanelCanvas::draw.
 #pragma once
@@ -8,7 +8,7 @@
 
 namespace dustbench::bench {
 
-/// Milliseconds of the stacks' full height, for both halves: 1.25 times the slower half's 95th percentile, so that one
+/// Milliseconds at the full height of both halves' charts: 1.25 times the slower half's 95th percentile, so that one
 /// slow frame does not flatten the others.
 [[nodiscard]] double stackScaleMs(const Viewer& viewer);
 

@@ -1,4 +1,4 @@
-// Every method beside every kind of partner, every slider to both ends, every button; windows that change while they
+// Every method next to every kind of partner, every slider at both ends, every button; windows that change while they
 // are drawn.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

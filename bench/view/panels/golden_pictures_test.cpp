@@ -1,9 +1,8 @@
-// Pictures of views and panels against golden ones, by FLIP. `make golden` draws them anew: look at them before they
-// are kept.
+// Compares pictures of views and panels with golden ones, by FLIP. `make golden` draws them again: look at them before
+// you commit them.
 //
-// Nothing that is timed is in them. Between two rasterisers or two compilers a few pixels at edges differ by some steps
-// of 8 bits, which FLIP weighs as less than 0.01 on average; two halves that are exchanged, a divider a tenth further
-// or a line of text more are above 0.02.
+// They contain no times. Between two rasterisers or compilers, a few pixels at edges differ by some 8-bit steps, so the
+// mean FLIP is below 0.01. Exchanged halves, a divider moved by a tenth or an additional line of text are above 0.02.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +33,7 @@ pictures::Image opaque(pictures::Image image) {
     return image;
 }
 
-/// What differs stays in the folder for temporary files, as picture, reference and FLIP's map.
+/// If the picture differs, stores picture, reference and FLIP's map in the folder for temporary files.
 void expectGolden(const pictures::Image& displayed, const std::string& name) {
     const pictures::Image picture = opaque(pictures::decoded(displayed));
     if (isWritten()) {
@@ -86,7 +85,7 @@ TEST_F(GoldenPictures, OfViews) {
     expectGolden(viewed(Shown::beside, Channel::alpha), "alpha_beside_enlarged");
 }
 
-/// The panel without what is below the list of cameras: the costs of a viewer that has drawn one frame are empty.
+/// The upper part of the panel, down to the list of cameras. The costs below are empty after one frame.
 TEST_F(GoldenPictures, OfThePanel) {
     if (!std::filesystem::exists("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf")) GTEST_SKIP() << "no DejaVu here";
     PanelTarget target(device_);

@@ -17,7 +17,7 @@ struct FieldKey {
     ImGuiKey imgui;
     Key key;
 };
-/// The keys by which ImGui edits text and walks through widgets.
+/// The keys with which ImGui edits text and navigates between widgets.
 constexpr std::array fieldKeys{FieldKey{ImGuiKey_Tab, Key::tab},
                                FieldKey{ImGuiKey_LeftArrow, Key::left},
                                FieldKey{ImGuiKey_RightArrow, Key::right},
@@ -85,7 +85,7 @@ PanelCanvas::PanelCanvas(gpu::Device& device, float fontPixels) : device_(device
     io.LogFilename = nullptr;
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
 #if IMGUI_VERSION_NUM >= 18700
-    io.ConfigInputTrickleEventQueue = false;  // a frame gets all of its events, as it did before there was a queue
+    io.ConfigInputTrickleEventQueue = false;  // a frame processes all of its events at once
 #else
     for (const FieldKey& each : fieldKeys) io.KeyMap[each.imgui] = static_cast<int>(each.key);
 #endif
@@ -96,7 +96,7 @@ PanelCanvas::PanelCanvas(gpu::Device& device, float fontPixels) : device_(device
     setStyle(fontPixels);
     if (!ImGui_ImplOpenGL3_Init("#version 450 core")) {
         ImGui::DestroyContext();
-        throw InputError("panels: OpenGL cannot be loaded; Debian's package libgl1 brings libGL.so.1");
+        throw InputError("panels: OpenGL cannot be loaded; on Debian, install libgl1, which contains libGL.so.1");
     }
 }
 

@@ -1,7 +1,7 @@
-// Draws panels with Dear ImGui into a framebuffer, from input given as plain values: no window is needed.
+// Draws panels with Dear ImGui into a framebuffer, from input given as plain values, so it needs no window.
 //
-// Units: pixels from the upper left corner. Owns: the ImGui context and its objects on the GPU; there is one canvas at
-// a time. Threads: the device's.
+// Units: pixels from the upper left corner. Owns: the ImGui context and its objects on the GPU; only one canvas may
+// exist at a time. Threads: the device's.
 #pragma once
 
 #include <array>
@@ -17,9 +17,9 @@
 
 namespace dustbench::bench {
 
-/// Input since the last frame: what is held now, and what was typed.
+/// Input of a frame: the keys and buttons that are held, and the text typed since the last frame.
 struct PanelInput {
-    glm::vec2 mouse{-1};            ///< outside: negative
+    glm::vec2 mouse{-1};            ///< negative if outside
     std::array<bool, 3> buttons{};  ///< left, right, middle
     float wheel = 0;                ///< lines upwards
     std::array<bool, keyCount> keys{};
@@ -41,18 +41,18 @@ class PanelCanvas {
     PanelCanvas(const PanelCanvas&) = delete;
     PanelCanvas& operator=(const PanelCanvas&) = delete;
 
-    /// One frame: `show` builds the panels, which are drawn over what the target holds.
+    /// Draws one frame: `show` builds the panels, which are drawn over the contents of the target.
     void draw(const gpu::Framebuffer& target, int width, int height, const PanelInput& input,
               const std::function<void()>& show);
 
-    /// Between two frames.
+    /// Call between two frames.
     void setFontPixels(float pixels);
 
-    /// In the last frame the panels used the mouse or the keyboard; others must ignore it.
+    /// The panels used the mouse or the keyboard in the last frame, so others must ignore it.
     [[nodiscard]] bool takesMouse() const;
     [[nodiscard]] bool takesKeyboard() const;
 
-    /// Text that a field has copied, or one for fields to paste.
+    /// Text that a field has copied, or that fields can paste.
     [[nodiscard]] const std::string& clipboard() const { return clipboard_; }
     void setClipboard(std::string text) { clipboard_ = std::move(text); }
 
@@ -61,11 +61,11 @@ class PanelCanvas {
     std::string clipboard_;
 };
 
-/// Where the widgets of the last frame are, by name, for scripts of input.
+/// Positions of the last frame's widgets by name, for scripted input.
 class WidgetMap {
  public:
     void clear() { widgets_.clear(); }
-    /// The widget that was shown last.
+    /// Records the widget that was shown last.
     void note(const std::string& name);
     [[nodiscard]] const std::map<std::string, PanelRectangle>& all() const { return widgets_; }
 

@@ -10,9 +10,9 @@ namespace dustbench::bench {
 namespace {
 
 constexpr float fontPixels = 15;
-/// ImGui knows the size of a table only from the frame before.
+/// ImGui knows the size of a table only after a frame.
 constexpr int framesToSettle = 2;
-/// The exact picture is drawn when nothing has moved for a frame.
+/// The ground truth is drawn when nothing has moved for a frame.
 constexpr int framesToRest = 2;
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 namespace dustbench::bench {
 
-/// The whole window, `width` × `height`, when it has arrived at the state's frame and everything is drawn. Linear
-/// light. Throws InputError for a state that cannot be shown, or without OpenGL.
+/// Draws the whole window, `width` × `height`, at the state's frame. Linear light. Throws InputError for a state that
+/// cannot be shown, or without OpenGL.
 [[nodiscard]] pictures::Image panelPicture(const ViewState& state, const SplitSettings& split, int width, int height);
 
 }  // namespace dustbench::bench

@@ -1,4 +1,4 @@
-// What the panels are drawn into: a framebuffer as large as the window is now.
+// The framebuffer for the panels, with the current size of the window.
 //
 // Owns: the texture and its framebuffer. Threads: the device's.
 #pragma once
@@ -12,7 +12,7 @@ class PanelTarget {
  public:
     explicit PanelTarget(gpu::Device& device) : device_(device) {}
 
-    /// False for a window without an area, as a minimised one has: then there is nothing to draw into.
+    /// False for a window without an area, such as a minimised one: then there is no target.
     bool fit(int width, int height) {
         if (width < 1 || height < 1) return false;
         if (width != texture_.width() || height != texture_.height()) {
@@ -21,7 +21,7 @@ class PanelTarget {
         }
         return true;
     }
-    /// After the first fit() that was true.
+    /// Valid after the first fit() that returned true.
     [[nodiscard]] gpu::Texture& texture() { return texture_; }
     [[nodiscard]] const gpu::Framebuffer& framebuffer() const { return framebuffer_; }
 

@@ -52,7 +52,7 @@ TEST_F(Panels, ChannelExposureAndZoomAreAtHand) {
     EXPECT_GT(viewer_->split.origin.x, 0.3f);
 }
 
-/// Pixels of a rectangle that have this colour.
+/// Number of pixels of a rectangle with this colour.
 int countOf(const pictures::Image& image, const PanelRectangle& where, glm::ivec3 colour) {
     int count = 0;
     for (int y = static_cast<int>(where.minimum.y); y < static_cast<int>(where.maximum.y); ++y)
@@ -61,7 +61,7 @@ int countOf(const pictures::Image& image, const PanelRectangle& where, glm::ivec
     return count;
 }
 
-/// Pixels that a stage has in a half's stack: a column a frame, what is above the scale is cut off.
+/// Number of pixels of a stage in a half's chart: one column per frame, cut off above the scale.
 double stackedArea(const Viewer& viewer, std::size_t half, std::string_view stage, const PanelRectangle& stack) {
     const glm::dvec2 size = stack.maximum - stack.minimum;
     const auto shown = [&, scale = stackScaleMs(viewer)](double ms) { return std::min(ms / scale, 1.0) * size.y; };
@@ -159,7 +159,7 @@ TEST_F(Panels, RandomInputDoesNotBreakThem) {
     const auto below = [&](int limit) { return static_cast<int>(random() % static_cast<unsigned>(limit)); };
     const int inputs = randomInputs();
     for (int n = 0; n < inputs; ++n) {
-        // Above the parameters, which can ask for ten million particles, or over the picture.
+        // Above the parameters, which could request ten million particles, or over the picture.
         input_.mouse =
             below(2) == 0 ? glm::vec2(below(width), below(200)) : glm::vec2(320 + below(width - 320), below(height));
         for (bool& button : input_.buttons) button = below(3) == 0;
@@ -170,7 +170,7 @@ TEST_F(Panels, RandomInputDoesNotBreakThem) {
         if (below(4) == 0) input_.text = "1x.";
         if (key != Key::q) below(2) == 0 ? viewer_->press(key, below(4) == 0) : viewer_->release(key);
         if (n % 50 == 0) {
-            ViewState state = viewer_->state();  // half B in turn: a method, the exact picture, none
+            ViewState state = viewer_->state();  // half B is alternately a method, the ground truth, none
             state.b = HalfState{methods().back().id, {}};
             if (n % 150 == 50) state.b = HalfState{exactPicture, {}};
             if (n % 150 == 100) state.b.reset();

@@ -1,4 +1,4 @@
-// For tests: a viewer with its panels in a framebuffer, and a script of input that finds widgets by name.
+// For tests: a viewer with its panels in a framebuffer, and scripted input that finds widgets by name.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -41,7 +41,7 @@ class Panels : public testing::Test {
         panels_ = std::make_unique<ViewerPanels>(device_, 13.0f);
         frames(2);
     }
-    /// Of the panels; the viewer's picture stays as it is.
+    /// Draws frames of the panels; the viewer's picture does not change.
     void frames(int count) {
         for (int n = 0; n < count; ++n) {
             panels_->draw(*viewer_, target_, width, height, input_);
@@ -66,7 +66,7 @@ class Panels : public testing::Test {
         frames(2);
     }
     void click(const std::string& widget) { clickAt(at(widget).centre()); }
-    /// A slider's edge, from its middle: 0 left, 1 right.
+    /// Drags a slider from its middle to a share of its width: 0 left, 1 right.
     void slide(const std::string& widget, float share) {
         const PanelRectangle place = at(widget);
         input_.mouse = place.centre();
@@ -89,7 +89,7 @@ class Panels : public testing::Test {
     PanelInput input_;
 };
 
-/// Share of the pixels of a rectangle that are bright, as text is.
+/// Share of bright pixels, such as those of text, between two columns of the image.
 inline double brightShare(const pictures::Image& image, int left, int right) {
     double bright = 0, all = 0;
     for (int y = 0; y < image.height; ++y)

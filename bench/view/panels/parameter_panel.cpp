@@ -12,7 +12,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// A range over so many powers of ten is slid logarithmically.
+/// Sliders are logarithmic if the range spans this many powers of ten.
 constexpr double wideRange = 1000;
 
 bool isSlid(const Parameter& parameter) {

@@ -1,4 +1,4 @@
-// A list of parameters, made from their declaration: slider, list, switch or text, with default, unit and help.
+// A list of parameters, built from their declarations: slider, list, switch or text, with default, unit and help.
 //
 // Threads: the canvas's, within PanelCanvas::draw.
 #pragma once
@@ -19,10 +19,10 @@ struct ParameterEdit {
 
 class ParameterPanel {
  public:
-    /// `id` names the widgets: `id/parameter`, and `id/parameter/reset` of one that is set.
+    /// Widgets are named `id/parameter`, and `id/parameter/reset` for a parameter that is set.
     explicit ParameterPanel(std::string id) : id_(std::move(id)) {}
 
-    /// Shows all parameters with their values. A slider's edit ends when it is let go, a text's with Enter.
+    /// Shows all parameters with their values. Editing a slider ends when it is released, editing a text with Enter.
     [[nodiscard]] std::optional<ParameterEdit> show(const ParameterValues& values,
                                                     const std::map<std::string, std::string, std::less<>>& given,
                                                     WidgetMap& widgets);
@@ -34,7 +34,7 @@ class ParameterPanel {
     [[nodiscard]] std::optional<std::string> type(const Parameter& parameter, const std::string& value);
 
     std::string id_;
-    std::string edited_;  ///< name of the parameter that is being slid or typed; empty: none
+    std::string edited_;  ///< name of the parameter that is being edited; empty: none
     double slid_ = 0;
     std::string typed_;
 };

@@ -28,7 +28,7 @@ std::string labelOf(Shown shown, std::string_view word) {
     return shown == Shown::flip ? "FLIP" : std::string(word);
 }
 
-/// The numbers of this frame under their names in reports/METRICS.md.
+/// The metrics of this frame, named as in reports/METRICS.md.
 void showNumbers(const MomentMetrics& metrics) {
     if (!beginTable("numbers", 3)) return;
     const auto row = [](const std::string& name, const std::string& whole, const std::string& masked) {
@@ -47,7 +47,7 @@ void showNumbers(const MomentMetrics& metrics) {
     ImGui::EndTable();
 }
 
-/// Text over a picture, readable on any.
+/// Text over a picture, readable on any background.
 void showCaption(glm::vec2 corner, const std::string& line) {
     const ImVec2 size = ImGui::CalcTextSize(line.c_str());
     const float margin = 0.3f * ImGui::GetFontSize();
@@ -65,7 +65,7 @@ void PicturePanel::showPicture(const Viewer& viewer, float left, int width, int 
     const glm::vec2 room(std::max(static_cast<float>(width) - left, 1.0f), static_cast<float>(height));
     const glm::vec2 pixels(image.width(), image.height());
     float scale = std::min(room.x / pixels.x, room.y / pixels.y);
-    if (scale > 1) scale = std::floor(scale);  // whole steps keep pixels alike
+    if (scale > 1) scale = std::floor(scale);  // an integer scale keeps all pixels the same size
     const glm::vec2 corner = glm::floor(glm::vec2(left, 0) + 0.5f * (room - scale * pixels));
     picture_ = {corner, corner + scale * pixels};
     // Rows of a texture begin at the bottom.
@@ -148,8 +148,7 @@ void PicturePanel::showChannel(Viewer& viewer, WidgetMap& widgets) {
     if (channel == Channel::depth) showRemark("depth of the opaque scene: 1 m white, 1 km and beyond black");
     if (channel == Channel::overdraw)
         showRemark(fmt::format("primitives over a pixel: 0 black, {:.0f} yellow", viewer.maps().overdrawLimit()));
-    if (channel == Channel::outlines)
-        showRemark("quads yellow, voxels blue, brighter where several lie upon each other");
+    if (channel == Channel::outlines) showRemark("quads yellow, voxels blue, brighter where several overlap");
     if (channel != Channel::faults) return;
     showRemark("not finite magenta, negative cyan, alpha outside 0..1 yellow");
     for (const Half half : {Half::a, Half::b})
@@ -159,17 +158,16 @@ void PicturePanel::showChannel(Viewer& viewer, WidgetMap& widgets) {
 void PicturePanel::showExact(Viewer& viewer, WidgetMap& widgets) {
     showSwitch("exact every frame", viewer.exactEveryFrame, widgets);
     if (!viewer.session().isJudged()) {
-        showRemark(
-            viewer.session().isCurrent(Half::b)
-                ? "B is drawn by exact_tiles, the exact picture to 1e-5. The judge's own, with numbers, is drawn "
-                  "when nothing moves: Space pauses, E pauses and draws it."
-                : "The exact picture is drawn when nothing moves: Space pauses, E pauses and draws it. Until "
-                  "then A is shown alone.");
+        showRemark(viewer.session().isCurrent(Half::b)
+                       ? "exact_tiles draws B, the ground truth to within 1e-5. The ground truth with metrics is drawn "
+                         "when nothing moves: Space pauses, E pauses and draws it."
+                       : "The ground truth is drawn when nothing moves: Space pauses, E pauses and draws it. Until "
+                         "then, only A is shown.");
         return;
     }
     const ExactHalf& exact = viewer.session().exact();
     exact.whyNotJudged().empty() ? showNumbers(exact.judged().metrics) : showRemark(exact.whyNotJudged());
-    showRemark(fmt::format("exact picture and numbers of frame {} in {:.2f} s", viewer.session().drawnFrame(),
+    showRemark(fmt::format("ground truth and metrics of frame {} in {:.2f} s", viewer.session().drawnFrame(),
                            exact.seconds()));
 }
 

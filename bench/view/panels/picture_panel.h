@@ -1,5 +1,5 @@
-// The picture in the window with its stamp and the mouse over it, and what the panel says of it: which view, how large,
-// how bright, and the numbers of this frame.
+// The picture in the window with its stamp and mouse input, and the panel's controls for it: view, zoom, exposure, and
+// the metrics of this frame.
 //
 // Threads: the canvas's, within PanelCanvas::draw.
 #pragma once
@@ -13,11 +13,11 @@ namespace dustbench::bench {
 
 class PicturePanel {
  public:
-    /// Behind everything, right of `left`, as large as it fits.
+    /// Draws the picture behind everything, right of `left`, as large as fits.
     void showPicture(const Viewer& viewer, float left, int width, int height);
-    /// Its stamp, and the value under the cursor.
+    /// Shows its stamp and the value under the cursor.
     void showStamp(Viewer& viewer, const PanelInput& input) const;
-    /// The mouse over the picture, unless the panels use it.
+    /// Handles the mouse over the picture, unless the panels use it.
     void useMouse(Viewer& viewer, const PanelInput& input);
     /// Widgets are named by their labels: `wipe`, `divider`, `channel`, `exposure`, `zoom` …
     void showChoices(Viewer& viewer, WidgetMap& widgets);

@@ -39,7 +39,7 @@ void edit(ParameterTexts& given, const ParameterEdit& change) {
         given.erase(change.name);
 }
 
-/// Scales of the text to choose from.
+/// Selectable scales of the text.
 constexpr std::array textScales{0.75, 1.0, 1.25, 1.5, 2.0, 3.0};
 
 std::string percentText(double scale) {
@@ -199,7 +199,7 @@ void ViewerPanels::showFiles(Viewer& viewer) {
     if (ImGui::Button("Measure this")) viewer.act(Action::measure);
     widgets_.note("Measure this");
     ImGui::SameLine();
-    ImGui::TextDisabled("%d runs each, minutes", measuredRepetitions);
+    ImGui::TextDisabled("%d runs each, takes minutes", measuredRepetitions);
     for (const std::string& sentence : viewer.measured()) ImGui::TextWrapped("%s", sentence.c_str());
 }
 
@@ -219,7 +219,7 @@ void ViewerPanels::showHelp() {
     ImGui::SetNextWindowPos(ImVec2(panelWidth() + ImGui::GetFontSize(), ImGui::GetFontSize()), ImGuiCond_Appearing);
     ImGui::SetNextWindowBgAlpha(1);
     ImGui::Begin("Keys", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
-    showTextSize();  // in a low window the end of the keys is out of sight
+    showTextSize();  // first, because a small window cuts off the end of the list
     ImGui::Separator();
     if (ImGui::BeginTable("keys", 2)) {
         const auto row = [](std::string_view name, std::string_view help) {
@@ -236,8 +236,8 @@ void ViewerPanels::showHelp() {
     }
     ImGui::Separator();
     showText(
-        "mouse: left moves the divider, right turns the camera, middle shifts it, the wheel comes closer;\n"
-        "with Ctrl the wheel enlarges the picture and left moves it");
+        "mouse: left moves the divider, right turns the camera, middle shifts it, the wheel moves it closer;\n"
+        "with Ctrl, the wheel enlarges the picture and left moves it");
     ImGui::End();
 }
 

@@ -1,4 +1,4 @@
-// Everything that a frame of the window shows: the picture, and the panels over it.
+// The whole contents of the window: the picture and the panels over it.
 //
 // Owns: the canvas. Threads: the device's.
 #pragma once
@@ -16,19 +16,19 @@ class ViewerPanels {
     /// `fontPixels`: height of the text at scale 1.
     ViewerPanels(gpu::Device& device, float fontPixels) : canvas_(device, fontPixels), fontPixels_(fontPixels) {}
 
-    /// Fills the target, which is `width` × `height`, with the viewer's picture and the panels, and hands the input of
-    /// the panels and of the mouse over the picture to the viewer. Its keys reach the panels while a text is typed or
-    /// the viewer walks through the panel.
+    /// Fills the target, which is `width` × `height`, with the viewer's picture and the panels. Passes input of the
+    /// panels and of the mouse over the picture to the viewer. Keys reach the panels only while text is typed or
+    /// `walksPanel` is set.
     void draw(Viewer& viewer, const gpu::Framebuffer& target, int width, int height, const PanelInput& input);
 
-    /// The panels use the keys, Tab excepted, so the viewer should not get them.
+    /// The panels use all keys except Tab, so the viewer should not get them.
     [[nodiscard]] bool takesKeyboard() const { return canvas_.takesKeyboard() || walks_; }
-    /// Of the text and all that goes with it; from the next frame on.
+    /// Scales the text and the widgets, from the next frame on.
     [[nodiscard]] double textScale() const { return wantedScale_; }
     void setTextScale(double scale) { wantedScale_ = scale; }
     [[nodiscard]] PanelCanvas& canvas() { return canvas_; }
-    /// Names of widgets are those of their labels; parameters are `a/NAME`, `b/NAME` and `world/NAME`, and the words of
-    /// an open list `LABEL/WORD`.
+    /// Widgets are named by their labels, parameters `a/NAME`, `b/NAME` and `world/NAME`, and the items of an open list
+    /// `LABEL/ITEM`.
     [[nodiscard]] const WidgetMap& widgets() const { return widgets_; }
 
  private:

@@ -1,4 +1,4 @@
-// A script of input on a surfaceless context: widgets are found by name, pictures come out of the framebuffer.
+// Scripted input on a surfaceless context: widgets are found by name, pictures are read from the framebuffer.
 #include "bench/view/panels/viewer_panels.h"
 
 #include <gmock/gmock.h>

@@ -36,17 +36,20 @@ InputError cannotOpen() {
                       "; --picture FILE draws one frame without a window");
 }
 
-/// GLFW's library, for as long as it is used.
+/// Initialises GLFW's library, and ends it on destruction.
 class Library {
  public:
     Library() {
         glfwSetErrorCallback([](int, const char* text) { lastProblem() = text; });
-#ifdef GLFW_PLATFORM  // 3.4 or newer: it asks Wayland first, whose library prints a line of its own without this variable
+#ifdef GLFW_PLATFORM  // 3.4 or newer: it asks Wayland first, whose library prints a line of its own without this
+                      // variable
         if (!std::getenv("XDG_RUNTIME_DIR")) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
 #endif
         if (glfwInit() != GLFW_TRUE) throw cannotOpen();
     }
-    ~Library() { glfwTerminate(); }
+    ~Library() {
+        glfwTerminate();
+    }
     Library(const Library&) = delete;
     Library& operator=(const Library&) = delete;
 };
@@ -73,7 +76,7 @@ struct KeyEvent {
     bool pressed, control;
 };
 
-/// What GLFW has reported since the last frame.
+/// Events that GLFW has reported since the last frame.
 struct Reported {
     PanelInput input;
     std::vector<KeyEvent> keys;
@@ -128,7 +131,7 @@ void readMouse(GLFWwindow* window, PanelInput& input) {
         input.buttons[static_cast<std::size_t>(button)] = glfwGetMouseButton(window, button) == GLFW_PRESS;
 }
 
-/// The first gamepad that is connected.
+/// State of the first connected gamepad.
 PadState readPad() {
     PadState pad;
     GLFWgamepadstate state;
@@ -155,7 +158,7 @@ WindowOwner createWindow(const ImageSize& size) {
     return {glfwCreateWindow(size.width, size.height, "dustbench view", nullptr, nullptr), &glfwDestroyWindow};
 }
 
-/// With a context that tells of its loss, where there is one.
+/// Creates a window whose context reports its loss, if the driver supports that.
 WindowOwner openWindow(const ImageSize& size) {
     glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
@@ -174,7 +177,7 @@ WindowOwner openWindow(const ImageSize& size) {
     return window;
 }
 
-/// The window's frames.
+/// The window's main loop.
 class Loop {
  public:
     Loop(GLFWwindow* window, const ViewState& state, const std::filesystem::path& folder,
@@ -226,8 +229,8 @@ class Loop {
         readMouse(window_, reported_.input);
         viewer_.usePad(readPad());
     }
-    /// Of the window, as it has to be asked for: where it is counted in pixels, GLFW multiplies that by the display's
-    /// scale.
+    /// The window's size as it must be requested: where GLFW counts sizes in pixels, it multiplies a requested size by
+    /// the display's scale.
     [[nodiscard]] ImageSize unscaledSize() const {
         int width = 0, height = 0, pixels = 0, rows = 0;
         glfwGetWindowSize(window_, &width, &height);
@@ -261,7 +264,7 @@ class Loop {
             viewer_.say(error.what());
         }
     }
-    /// Nobody is there any more to read why not, and how a window looks is no result.
+    /// Errors are ignored: the window is closed, and its appearance is not a result.
     void keepAtEnd() {
         try {
             settings_.finish();
@@ -292,11 +295,11 @@ class Loop {
         panels_.draw(viewer_, target_.framebuffer(), target_.texture().width(), target_.texture().height(), input);
         output_.show(target_);
     }
-    /// Between two runs of a measurement, without input.
+    /// Draws between two runs of a measurement, without input.
     void showProgress() {
         if (makeTarget()) showPanels({});
     }
-    /// While a run may be timed.
+    /// Called while a run may be timed.
     bool cancels() {
         glfwPollEvents();
         const auto isEscape = [](const KeyEvent& event) { return event.pressed && event.key == Key::escape; };

@@ -1,4 +1,4 @@
-// Shows in a window what a device has drawn: the window's own, or that of another adapter.
+// Shows the pictures of a device in a window. The device is the window's own or that of another adapter.
 //
 // Owns: the Device of the window's context. Threads: the one that opened the window.
 #pragma once
@@ -15,17 +15,17 @@ namespace dustbench::bench {
 
 class WindowOutput {
  public:
-    /// The window's context must be current. Draws with the adapter that was asked for (askedAdapter), else with the
-    /// window's. Throws InputError as Device does.
+    /// The window's context must be current. Uses the requested adapter (askedAdapter), otherwise the window's. Throws
+    /// InputError as Device does.
     explicit WindowOutput(GLFWwindow* window);
-    /// Whatever was drawn with device() must be gone by then.
+    /// All objects of device() must be destroyed before.
     ~WindowOutput();
     WindowOutput(const WindowOutput&) = delete;
     WindowOutput& operator=(const WindowOutput&) = delete;
 
-    /// To draw with; its context is current.
+    /// The device to draw with; its context is current.
     [[nodiscard]] gpu::Device& device() { return other_ ? *other_ : own_; }
-    /// Another adapter's picture passes through the main memory.
+    /// A picture of another adapter is copied through main memory.
     void show(PanelTarget& target);
 
  private:

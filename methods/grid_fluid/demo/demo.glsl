@@ -1,4 +1,4 @@
-// The grid of the demo, one thread per cell, and its fields: textures without ghosts.
+// The grid of the demo with one thread per cell, and its fields: textures without ghost cells.
 layout(local_size_x = 32, local_size_y = 4, local_size_z = 1) in;
 uniform ivec3 cells;
 layout(binding = 6) uniform sampler3D solidVelocity;
@@ -23,7 +23,7 @@ vec4 at(sampler3D field, ivec3 c) {
     return texelFetch(field, clamp(c, ivec3(0), cells - 1), 0);
 }
 
-// `place` in cells from the centre of the first.
+// `place` in cells from the centre of the first cell.
 vec4 sampled(sampler3D field, vec3 place) {
     ivec3 low = ivec3(floor(place));
     vec3 f = place - vec3(low);
@@ -40,7 +40,7 @@ vec3 within(vec3 place) {
     return clamp(place, vec3(0), vec3(cells - 1));
 }
 
-// The velocity of the neighbour of a cell of air along an axis; `side` is 0 before it and 1 behind.
+// The velocity of an air cell's neighbour along an axis; `side`: 0 for the previous one, 1 for the next one.
 vec3 beside(sampler3D velocity, ivec3 c, int axis, int side) {
     ivec3 other = c + (2 * side - 1) * unit(axis);
     if (inside(other)) return isSolid(other) ? texelFetch(solidVelocity, other, 0).xyz : texelFetch(velocity, other, 0).xyz;
@@ -56,7 +56,7 @@ float divergenceAt(sampler3D velocity, ivec3 c) {
     return sum;
 }
 
-// Of a solid and beyond a wall it is that of the cell itself, beyond an open side 0.
+// The neighbour's pressure: in a solid and beyond a wall that of the cell itself, beyond an open side 0.
 float pressureBeside(sampler3D pressure, ivec3 c, int axis, int side) {
     ivec3 other = c + (2 * side - 1) * unit(axis);
     float own = texelFetch(pressure, c, 0).r;

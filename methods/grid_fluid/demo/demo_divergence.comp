@@ -1,4 +1,4 @@
-// The divergence times the spacing; nothing in solids.
+// The divergence times the spacing; 0 in solids.
 layout(binding = 0) uniform sampler3D velocity;
 layout(binding = 0, rgba16f) restrict writeonly uniform image3D result;
 

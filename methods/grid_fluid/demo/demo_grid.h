@@ -1,6 +1,6 @@
-// The fields of the demo on the CPU: floats that were rounded to halves, x fastest, without ghosts.
+// The fields of the demo on the CPU: floats rounded to half precision, x fastest, without ghost cells.
 //
-// Units: places in cells from the centre of the first.
+// Units: places in cells from the centre of the first cell.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ class DemoGrid {
                static_cast<std::size_t>(cells_.x) *
                    (static_cast<std::size_t>(c.y) + static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(c.z));
     }
-    /// Of the nearest cell of the box.
+    /// The value of the nearest cell in the box.
     [[nodiscard]] const Value& at(const glm::ivec3& c) const {
         return values_[index(glm::clamp(c, glm::ivec3(0), cells_ - 1))];
     }

@@ -1,4 +1,4 @@
-// The first guess: what lies where the path of a cell began. Source: Crane2007, 30.2.
+// The first guess: the value where a cell's path began. Source: Crane2007, 30.2.
 layout(binding = 0) uniform sampler3D velocity;
 layout(binding = 1) uniform sampler3D field;
 layout(binding = 0, FORMAT) restrict writeonly uniform image3D guess;

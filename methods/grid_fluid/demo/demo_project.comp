@@ -1,4 +1,4 @@
-// Subtracts the gradient of the pressure; beside a solid the air takes its speed. Source: Crane2007, 30.2.
+// Subtracts the gradient of the pressure; next to a solid the air takes the solid's speed. Source: Crane2007, 30.2.
 layout(binding = 0) uniform sampler3D velocity;
 layout(binding = 1) uniform sampler3D pressure;
 layout(binding = 0, rgba16f) restrict writeonly uniform image3D result;

@@ -1,4 +1,4 @@
-// The maximum magnitudes of speeds, divergence, density and temperature, as bits: they order like the values.
+// The maximum magnitudes of speeds, divergence, density and temperature, as bits, which order like the values.
 layout(binding = 0) uniform sampler3D velocity;
 layout(binding = 2) uniform sampler3D density;
 layout(binding = 3) uniform sampler3D temperature;

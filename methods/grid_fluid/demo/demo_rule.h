@@ -11,8 +11,8 @@ inline constexpr int jacobiSweeps = 6;
 inline constexpr float confinementOfSmoke = 0.0085f, confinementOfFire = 0.03f;  ///< per step
 inline constexpr float keptOfScalars = 0.9995f;                                  ///< per step
 inline constexpr float airKelvin = 293;
-/// Of the fields of a cell: two velocities and a vector of four halves each; pressure, density, temperature and a
-/// temporary scalar of one; a solid's velocity of four halves and whether it is there, a byte.
+/// Bytes per cell: two velocities and a vector of four halves each; pressure, density, temperature and a temporary
+/// scalar of one half each; a solid's velocity of four halves, and a byte that marks solids.
 inline constexpr std::size_t bytesOfFlow = 32, bytesOfSolids = 9;
 
 struct DemoSettings {
@@ -27,13 +27,13 @@ struct DemoSettings {
     [[nodiscard]] float lift(float seconds) const { return buoyancyPerKelvin * seconds; }
 };
 
-/// The same settings; throws what flow::check says of their box.
+/// Returns the same settings; throws like flow::check for their box.
 [[nodiscard]] inline const DemoSettings& checked(const DemoSettings& settings) {
     flow::check(settings.box);
     return settings;
 }
 
-/// What of a fluid's settings the demo knows; the rest is its own. It has still air.
+/// The part of a fluid's settings that the demo uses; the rest is fixed. There is no wind.
 [[nodiscard]] inline DemoSettings demoOf(const flow::FluidSettings& settings, bool burns) {
     return {settings.box,
             settings.sides,

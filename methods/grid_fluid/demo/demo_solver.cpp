@@ -17,7 +17,7 @@ glm::ivec3 unit(int axis) {
     return {axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0};
 }
 
-/// What a solid's cell holds of an advected field.
+/// The value of an advected field in a solid's cell.
 float ofSolid(float, const glm::vec4&) {
     return 0;
 }
@@ -250,7 +250,7 @@ void DemoSolver::addDensity(std::span<const flow::AddedDensity>) {
 }
 
 void DemoSolver::gather(flow::Lane, const gpu::Texture&) const {
-    throw std::logic_error("a fluid that is solved on the CPU lies in no texture");
+    throw std::logic_error("a fluid that is solved on the CPU has no textures");
 }
 
 std::vector<float> DemoSolver::pressuresM2PerS2() const {

@@ -1,7 +1,8 @@
-// The fluid of the published demo on the CPU, plain: all quantities at the centres of cells, stored as halves.
+// The fluid of the published demo on the CPU, as a plain implementation: all quantities at the centres of cells, stored
+// as halves.
 //
 // A step advects by MacCormack, forward and clamped to the eight nodes, adds sources and forces, and sweeps the
-// pressure six times: what is stored is not free of divergence. Units: SI. Frame: world. Owns all fields. Threads:
+// pressure six times, so the stored flow is not divergence-free. Units: SI. Frame: world. Owns all fields. Threads:
 // slabs in parallel. Source: Crane2007, 30.2; Senger2009, 4.1.
 #pragma once
 
@@ -18,7 +19,7 @@ class DemoSolver final : public flow::Solver {
     void setSolids(const flow::SolidMask& mask) override;
     flow::StepReport step(double stepSeconds, std::span<const flow::FluidSource> sources,
                           const StageClock& clock = StageClock()) override;
-    /// Always throws: the demo's box stands still.
+    /// Always throws: the demo's box cannot move.
     void scroll(glm::ivec3 cells) override;
     [[nodiscard]] const flow::FluidBox& box() const override { return settings_.box; }
     [[nodiscard]] std::int64_t steps() const override { return steps_; }
@@ -55,7 +56,7 @@ class DemoSolver final : public flow::Solver {
     DemoSettings settings_;
     Vectors velocity_, otherVelocity_, vector_;  ///< `w` of a velocity: the reaction
     Scalars density_, temperature_, pressure_, scalar_;
-    Vectors solid_;  ///< velocity of a solid; w: whether it is there
+    Vectors solid_;  ///< velocity of a solid; w: whether the cell is solid
     std::int64_t steps_ = 0;
     double lastStepSeconds_ = 0;
 };

@@ -1,4 +1,4 @@
-// The demo by OpenGL against the plain one, its bytes, and what its scheme does.
+// Compares the demo by OpenGL with the plain one; tests its memory and the properties of its scheme.
 #include "methods/grid_fluid/demo/demo_solver.h"
 
 #include <gtest/gtest.h>
@@ -98,7 +98,7 @@ TEST(DemoSolver, LeavesDivergenceThatSixSweepsDoNotRemove) {
     EXPECT_GT(solver.divergencePerStep(), 1e-3f);
     EXPECT_EQ(smoke.report.pressure.cycles, 6);
     for (const float value : Smoke::valuesOf(solver, flow::density)) EXPECT_GE(value, 0);
-    // Solids hold their own speed and no smoke.
+    // Solid cells have the solid's speed and no smoke.
     const std::vector<float> speed = Smoke::valuesOf(solver, flow::velocityX);
     const std::vector<float> density = Smoke::valuesOf(solver, flow::density);
     for (std::size_t c = 0; c < smoke.body.size(); ++c)
@@ -147,7 +147,7 @@ TEST(DemoSolver, DensityFadesByItsShareAStepWhereNothingFlows) {
     };
     DemoSolver cpu(smoke.settings, smoke.ledger);
     GlDemoSolver gl(smoke.settings, device());
-    // 1 - 0.9995 is between half of and one whole step to the next half, so that up to twice as much is lost.
+    // 1 - 0.9995 is between half a step and one step of half precision, so that up to twice as much is lost.
     for (flow::Solver* solver : {static_cast<flow::Solver*>(&cpu), static_cast<flow::Solver*>(&gl)}) {
         const double kept = fades(*solver);
         EXPECT_LE(kept, std::pow(0.9995, 20) + 1e-4);

@@ -1,6 +1,6 @@
-// The fluid of the published demo by OpenGL, in its fields: 32 bytes a cell for the flow and 9 for the solids.
+// The fluid of the published demo by OpenGL, in its fields: 32 bytes per cell for the flow and 9 for the solids.
 //
-// The same step as DemoSolver's, as far as halves allow. Units: SI. Frame: world. Owns all fields; their bytes are on
+// The same step as DemoSolver's, to half precision. Units: SI. Frame: world. Owns all fields; their bytes are on
 // the device's ledger. Threads: the OpenGL thread's. Source: Crane2007, 30.2; Senger2009, 4.1 and table 1.
 #pragma once
 
@@ -21,7 +21,7 @@ class GlDemoSolver final : public flow::Solver {
     void setSolids(const flow::SolidMask& mask) override;
     flow::StepReport step(double stepSeconds, std::span<const flow::FluidSource> sources,
                           const StageClock& clock = StageClock()) override;
-    /// Always throws: the demo's box stands still.
+    /// Always throws: the demo's box cannot move.
     void scroll(glm::ivec3 cells) override;
     [[nodiscard]] const flow::FluidBox& box() const override { return settings_.box; }
     [[nodiscard]] std::int64_t steps() const override { return steps_; }
@@ -52,7 +52,7 @@ class GlDemoSolver final : public flow::Solver {
     DemoSettings settings_;
     gpu::Texture velocity_, otherVelocity_, vector_, density_, temperature_, pressure_, scalar_, solidVelocity_,
         solids_;
-    mutable gpu::Buffer report_;  ///< `mutable` because finding it clears it
+    mutable gpu::Buffer report_;  ///< `mutable` because computing it clears it
     Advection vectors_, scalars_;
     Kernel source_, curl_, forces_, divergence_, jacobi_, project_, findReport_;
     mutable Kernel shown_;  ///< `mutable` because running it sets a uniform

@@ -14,12 +14,12 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-constexpr std::size_t blocksOfSlab = 8, maximumRows = 8;  ///< of a block; fewer in a flat box
+constexpr std::size_t blocksOfSlab = 8, maximumRows = 8;  ///< rows of a block; fewer in a flat box
 constexpr std::size_t together = SixteenRecords::count;
 using FieldStrip = CornerStrip<Memory::whole, Reads::samples>;
 using ExtremaStrip = CornerStrip<Memory::whole, Reads::extrema>;
 using WindowStrip = CornerStrip<Memory::ring, Reads::samples>;
-/// Cells by which a path may leave the region: along a wall speeds across it are rounding errors.
+/// Cells by which a path may leave the region, since speeds across a wall are rounding errors next to it.
 constexpr float almost = pathTolerance;
 
 /// Writes two extra lanes, which the next record of the row, or its ghost, will overwrite.
@@ -34,7 +34,7 @@ void storeFirst(float* to, const Float16& values, std::size_t count) {
         std::memcpy(to, &values, count * sizeof(float));
 }
 
-/// Sixteen vectors of four floats by component; the fourth is left out.
+/// Sixteen vectors of four floats by component, without the fourth.
 Triples byComponent(const float* vectors) {
     const auto a = load<Float16>(vectors), b = load<Float16>(vectors + 16), c = load<Float16>(vectors + 32),
                d = load<Float16>(vectors + 48);
@@ -55,7 +55,7 @@ constexpr Float16 upwards{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
 using Int8 = int __attribute__((vector_size(32)));
 
-/// The quantities that move from `value`, the others from `own`.
+/// Takes the quantities that move from `value`, the others from `own`.
 [[gnu::always_inline]] inline Float8 chosen(Moving moving, const Float8& value, const Float8& own) {
     constexpr Int8 bits{1, 2, 4, 8, 8, 8, 8, 8};
     return ((Int8{} + moving) & bits) != 0 ? value : own;
@@ -65,7 +65,7 @@ using Int8 = int __attribute__((vector_size(32)));
     return (moving >> lane & 1) != 0;
 }
 
-/// The corrected value within the extrema around where the path began.
+/// The corrected value, limited by the extrema around the departure point.
 template <Limit limit, typename Number>
 [[gnu::always_inline]] inline Number limited(const Number& value, const Number& first, const Number& minimum,
                                              const Number& maximum) {
@@ -92,8 +92,8 @@ template <Limit limit, typename Number>
     return {from(velocities[0]), from(velocities[1]), from(velocities[2]), from(velocities[3])};
 }
 
-/// Where a path must stay to be corrected: between the places that move, and no farther along z than the greatest
-/// speed.
+/// The region in which a path must stay to be corrected: between the places that move, and no farther along z than the
+/// maximum speed.
 class Region {
  public:
     Region(const CellLayout& layout, int k, int reach) : high_{layout.nx, layout.ny, layout.nz} {
@@ -101,7 +101,7 @@ class Region {
         highestZ_ = k + 1 + (reach - 1);
     }
     [[nodiscard]] int lowestSlab() const { return lowestZ_; }
-    /// Moves sixteen places to the ends of their paths, limited to the region. Returns -1 where both ends lie within.
+    /// Moves sixteen places to the ends of their paths, limited to the region. Returns -1 where both ends are within.
     [[gnu::always_inline]] Int16 lead(Triples& place, const Triples& end, std::size_t kind) const {
         Int16 within = Int16{} - 1;
         const auto along = [&](Float16& from, const Float16& to, int low, int high) {
@@ -127,9 +127,9 @@ class Region {
 
 }  // namespace
 
-/// How many slabs each stage works behind the first one, the velocities at the centres, and how many slabs are held of
-/// what: in a turn each stage has a slab of its own. All that it reads was found in an earlier turn and is still there,
-/// and no stage reads the state where another one replaces it.
+/// The lag of each stage in slabs behind the first one, the velocities at the centres, and the number of slabs stored
+/// for each. In each round, every stage processes a different slab. Its input was computed in an earlier round and is
+/// still stored, and no stage reads the state where another one replaces it.
 struct Advection::Stagger {
     Stagger(int nz, double cellsAlongZ) {
         const int longest = static_cast<int>(std::min<double>(nz, std::ceil(cellsAlongZ)));
@@ -140,19 +140,19 @@ struct Advection::Stagger {
         corrections = guesses + reach + 1;
         results = corrections + reach + 1;
         const auto held = [&](int slabs) { return static_cast<std::size_t>(std::min(nz + 2, slabs)); };
-        // From the slab farthest ahead that a turn writes, ghosts included, to the one farthest behind that it reads.
+        // From the farthest slab ahead that a round writes, including ghosts, to the farthest behind that it reads.
         heldCentres = held(paths + reachHalfway + 2);
         heldPaths = held(corrections - paths + 2);
         heldGuesses = held(results - guesses + 2);
     }
-    int reach, reachHalfway;  ///< slabs that a sample along z may touch, on either side, of a path and of half of it
+    int reach, reachHalfway;  ///< slabs on either side that samples of a path, or of half a path, may touch
     int paths, guesses, corrections, results;
     std::size_t heldCentres, heldPaths, heldGuesses;
 };
 
 struct Advection::Pass {
     CellField& cells;
-    CellField& spare;  ///< of the semi-Lagrangian scheme the result, of MacCormack's the corrections
+    CellField& spare;  ///< the result of the semi-Lagrangian scheme, or MacCormack's corrections
     const Moving* moving;
     AdvectionRule rule;
     AdvectionStep step;
@@ -173,7 +173,7 @@ class Advection::Row {
             before_[axis] = all + slabBefore;
         }
     }
-    /// A face has the mean of its two cells.
+    /// A face has the mean velocity of its two cells.
     [[nodiscard]] PlacesOfCells at(std::size_t i) const {
         const Triples own = at(own_, i);
         return {mean(own, atLeft(i)), mean(own, at(below_, i)), mean(own, at(before_, i)), own};
@@ -266,7 +266,7 @@ void Advection::predict(const Pass& pass, const Rows& rows) {
     }
 }
 
-/// The faces on the far sides do not move, and have no cells of their own.
+/// The faces on the far sides do not move and do not belong to any cell.
 void Advection::keepFarFaces(const Pass& pass, int j, int k) {
     const auto keep = [&](int i, int y, int z, std::size_t records) {
         const std::size_t at = layout_.at(i, y, z);

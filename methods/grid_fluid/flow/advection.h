@@ -1,12 +1,12 @@
 // Advects all quantities of a cell and the speeds of its faces: trace back along the path, sample, and correct.
 //
-// Velocities lie on the faces that they cross: velocityX of cell (i, j, k) on its face towards −x, and so on. A cell's
-// path follows the midpoint rule; that of a face is the mean of the paths of its two cells, of second order as well.
-// The velocity that paths follow is that of one time, the beginning of the step or its middle (VelocityAt). Units:
-// metres per second, cells. Threads: rows in blocks; each cell by itself. Source: Stam1999, 2.2 (semi-Lagrangian);
-// Selle2008, Eq. 4 and 3.2 (MacCormack, clamped to the extrema or reverted). Departs: the forward path is the mirrored
-// backward path: x₊ = x₋ + 2Δt·u(x), also of second order, without another sample; if either path leaves the box, the
-// first guess is kept; of the corrections what alternates from cell to cell is left out (evened_corrections.h).
+// Velocities are stored on the faces that they cross: velocityX of cell (i, j, k) on its face towards −x, and so on. A
+// cell's path follows the midpoint rule; that of a face is the mean of the paths of its two cells, also second-order
+// accurate. Paths follow the velocity at the beginning of the step or at its middle (VelocityAt). Units: metres per
+// second, cells. Threads: rows in blocks; cells are independent. Source: Stam1999, 2.2 (semi-Lagrangian); Selle2008,
+// Eq. 4 and 3.2 (MacCormack, clamped to the extrema or reverted). Departs: the forward path is the mirrored backward
+// path: x₊ = x₋ + 2Δt·u(x), also second-order accurate, without another sample; if either path leaves the box, the
+// first guess is kept; grid-scale oscillation is filtered out of the corrections (evened_corrections.h).
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@ enum class Limit {
 
 /// The time of the velocity that paths follow.
 enum class VelocityAt {
-    begin,   ///< of the step: paths through a flow that changes are of first order in the step
-    middle,  ///< of the step, extrapolated from the beginnings of this one and the last: of second order
+    begin,   ///< beginning of the step: first-order accurate if the flow changes
+    middle,  ///< middle of the step, extrapolated from the beginnings of this one and the last: second-order accurate
 };
 
 struct AdvectionRule {
@@ -39,15 +39,16 @@ struct AdvectionRule {
 
 struct AdvectionStep {
     float cellsPerSpeed = 0;     ///< Δt/h
-    glm::vec3 maximumSpeeds{0};  ///< of the flow along each axis; it must not be faster along z
+    glm::vec3 maximumSpeeds{0};  ///< of the flow along each axis; along z it must be an upper bound
     float ahead = 0;             ///< aheadOf, if VelocityAt::middle
 };
 
-/// What moves in a cell, as bits: its faces towards −x, −y, −z (1, 2, 4), and what lies at its centre (8).
+/// The moving parts of a cell, as bits: its faces towards −x, −y, −z (1, 2, 4), and the quantities at its centre (8).
 using Moving = std::uint8_t;
 inline constexpr Moving allMoves = 15;
 
-/// Cells by which a path may leave the box and still be corrected: beside a wall, speeds across it are rounding errors.
+/// Cells by which a path may leave the box and still be corrected: next to a wall, speeds across it are rounding
+/// errors.
 inline constexpr float pathTolerance = 1.0f / 64;
 
 class Advection {
@@ -55,10 +56,10 @@ class Advection {
     Advection(const CellLayout& layout, MemoryAccount& memory)
         : layout_(layout), window_(memory), centres_(layout, memory) {}
 
-    /// Advects `cells`, with ghosts filled; `spare` is temporary. What does not move stays.
+    /// Advects `cells`, with ghosts filled; `spare` is temporary. Quantities that do not move are unchanged.
     void advect(CellField& cells, CellField& spare, const Moving* moving, AdvectionRule rule,
                 const AdvectionStep& step);
-    /// Moves what is kept from step to step by whole cells; new cells had the wind.
+    /// Moves the data kept between steps by whole cells; new cells get the wind's velocity.
     void scroll(glm::ivec3 by, glm::vec3 wind) { centres_.scroll(by, wind); }
 
  private:
@@ -72,7 +73,7 @@ class Advection {
     /// Velocities of the window: at the cells' centres, and half-way along their paths.
     enum Kept : std::size_t { centre = 0, halfway = 3, kept = 6 };
 
-    /// Index in a ring of so many slabs of a cell of the whole field.
+    /// Index of a cell of the whole field in a ring of `slabs` slabs.
     [[nodiscard]] std::size_t inRing(std::size_t at, std::size_t slabs) const {
         return at / layout_.slab % slabs * layout_.slab + at % layout_.slab;
     }

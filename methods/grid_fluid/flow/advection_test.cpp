@@ -1,4 +1,4 @@
-// Advection of a scalar in a prescribed flow: order of convergence, and effect on a peak.
+// Tests advection of a scalar in a prescribed flow: order of convergence, and effect on a peak.
 #include "methods/grid_fluid/flow/advection.h"
 
 #include <gtest/gtest.h>
@@ -87,8 +87,8 @@ TEST(Advection, ConvergesAtItsOrder) {
     EXPECT_GT(second.x, 1.6);
 }
 
-/// By how much a rotation is off, in radians, whose speed doubles in the meantime. It carries φ = x, which
-/// interpolation keeps; what the sides change does not reach the middle.
+/// The error, in radians, of a rotation whose speed doubles meanwhile. It carries φ = x, which interpolation preserves;
+/// the effect of the sides does not reach the middle.
 double offAfterFasterAndFasterTurns(int steps, AdvectionRule rule) {
     constexpr int n = 128;
     constexpr double turned = 1;
@@ -163,7 +163,7 @@ std::pair<std::uint64_t, std::size_t> advectedThroughWaves(AdvectionRule rule, f
 }
 
 TEST(Advection, IsTheSameHoweverFewSlabsAreHeld) {
-    // Where the flow is said to be fast along z, all slabs are held.
+    // If the flow is declared to be fast along z, all slabs are stored.
     for (const float speed : {0.4f, 1.3f, 3.5f})
         for (const auto scheme : {AdvectionScheme::semiLagrangian, AdvectionScheme::macCormack})
             for (const Limit limit : {Limit::clamp, Limit::revert})
@@ -177,7 +177,7 @@ TEST(Advection, IsTheSameHoweverFewSlabsAreHeld) {
 }
 
 TEST(Advection, WhatAlternatesFromCellToCellDoesNotStayBehind) {
-    // Half a cell a step along an axis: interpolation leaves nothing of φ = (−1)^i, and a whole correction half of it.
+    // Half a cell per step along an axis: interpolation removes φ = (−1)^i, and an unfiltered correction restores half.
     constexpr int n = 12;
     for (int axis = 0; axis < 3; ++axis)
         for (const Limit limit : {Limit::clamp, Limit::revert, Limit::none}) {
@@ -210,7 +210,7 @@ TEST(Advection, ATurnCostsThePeakWhatIsKnownOfEachScheme) {
     const double before = std::pow(0.09 * 64, 2), steps = 2 * pi * 0.22 * 64 / 0.6;
     const double known = before / (before + steps * (0.6 * 2 / pi - 0.18));
     EXPECT_NEAR(carryRound(64, {AdvectionScheme::semiLagrangian}, 1).peak, known, 0.02);
-    // A second-order scheme keeps the peak except for what the clamp cuts off.
+    // A second-order scheme preserves the peak, except for the part that the clamp cuts off.
     EXPECT_NEAR(carryRound(64, {AdvectionScheme::macCormack, Limit::clamp}, 1).peak, 1, 0.05);
     EXPECT_NEAR(carryRound(64, {AdvectionScheme::macCormack, Limit::none}, 1).peak, 1, 0.04);
 }

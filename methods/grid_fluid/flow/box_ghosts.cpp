@@ -19,7 +19,7 @@ void fillGhost(float* ghost, const float* inner, const float* next, const BoxSid
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         const bool isVelocity = lane < 3;
         if (lane == at.axis) {
-            if (at.high) continue;  // the side's own face
+            if (at.high) continue;  // the face on the side
             ghost[lane] = at.side == Side::inflow ? rule.windMetresPerSecond[static_cast<int>(lane)]
                           : at.side == Side::open ? inner[lane]
                                                   : -next[lane];
@@ -71,7 +71,7 @@ void fillGhosts(CellField& cells, const CellLayout& layout, const GhostRule& rul
         for (int i = 0; i < nx + 2; ++i, ghost += lanes, inner += lanes, next += lanes)
             fillGhost(ghost, inner, next, side, rule);
     };
-    // Faces on a far side beyond the box's edges are those of its outermost cells.
+    // Faces on a far side beyond the box's edges equal those of its outermost cells.
     const auto extendFace = [&](glm::ivec3 to, glm::ivec3 from, std::size_t lane) {
         cells.cell(layout.at(to.x, to.y, to.z))[lane] = cells.cell(layout.at(from.x, from.y, from.z))[lane];
     };

@@ -1,4 +1,4 @@
-// The sides of the box: the speeds of its outermost faces, and the ghost cells beyond, for look-ups.
+// The sides of the box: the speeds of its outermost faces, and the ghost cells beyond, for sampling.
 //
 // Units: metres per second. Threads: rows in blocks.
 #pragma once
@@ -17,8 +17,8 @@ struct GhostRule {
 /// The faces on the sides: 0 at a wall, the wind's speed at an inflow, that of the next face at an open side.
 void setSideFaces(CellField& cells, const CellLayout& layout, const GhostRule& rule);
 
-/// Beyond a wall the flow is mirrored, or reversed if it holds the air; beyond an open side it goes on, in clear air;
-/// beyond an inflow there is the wind, in clear air. The faces on the sides stay.
+/// Fills the ghosts: beyond a wall the flow is mirrored, or reversed without slip; beyond an open side it continues, in
+/// clear air; beyond an inflow there is the wind, in clear air. The faces on the sides do not change.
 void fillGhosts(CellField& cells, const CellLayout& layout, const GhostRule& rule);
 
 }  // namespace dustbench::grid_fluid::flow

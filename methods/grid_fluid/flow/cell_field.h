@@ -1,9 +1,9 @@
 // The state of a fluid: one record of six floats per cell, so that one sample reads all transported quantities.
 //
-// The speeds are those of the air through the cell's faces towards −x, −y and −z; all else lies at the cell's centre. A
-// layer of ghost cells around the box represents the outside of its sides; those beyond the far sides hold the faces
-// there. Cell indices run from −1 to n. Units: metres per second, kelvin above the air. Owns its memory, booked on a
-// ledger.
+// The speeds are those of the air through the cell's faces towards −x, −y and −z; all other quantities are at the
+// cell's centre. A layer of ghost cells around the box represents the outside of its sides; those beyond the far sides
+// hold the faces there. Cell indices run from −1 to n. Units: metres per second, kelvin above the air. Owns its memory,
+// booked on a ledger.
 #pragma once
 
 #include <cstddef>

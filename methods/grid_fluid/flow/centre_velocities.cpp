@@ -8,7 +8,7 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-/// The velocities at the centres of four cells, four floats each: the means of their faces. The fourth is left out.
+/// The velocities at the centres of four cells, four floats each: the means of their faces. The fourth float is unused.
 [[gnu::always_inline]] inline Float16 fourCentres(const float* records, std::size_t row, std::size_t slab) {
     const auto low = load<Float16>(records), high = load<Float16>(records + 16);
     const float *above = records + row, *behind = records + slab;
@@ -28,7 +28,7 @@ Float4 oneCentre(const float* record, std::size_t row, std::size_t slab) {
     return 0.5f * (load<Float4>(record) + next);
 }
 
-/// u* = uⁿ + a·(uⁿ − uⁿ⁻¹), within the greatest speeds.
+/// u* = uⁿ + a·(uⁿ − uⁿ⁻¹), limited to the maximum speeds.
 class MidStep {
  public:
     explicit MidStep(const Extrapolation& extrapolation)

@@ -1,4 +1,4 @@
-// Velocities at the centres, of the state and extrapolated to the middle of a step, compared with their equations.
+// Compares velocities at the centres, of the state and extrapolated to the middle of a step, with their equations.
 #include "methods/grid_fluid/flow/centre_velocities.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ void forPaddedCells(const Take& take) {
             for (c.x = -1; c.x <= odd.x; ++c.x) take(c);
 }
 
-/// Finds them row by row, and compares each with `expected(cell, axis)`.
+/// Computes them row by row, and compares each with `expected(cell, axis)`.
 template <typename Expected>
 void expectThem(CentreVelocities& velocities, const CellField& cells, const CellLayout& layout,
                 const Extrapolation* extrapolation, const Expected& expected) {

@@ -28,7 +28,7 @@ void CurlField::findSpeeds(const CellField& cells, int k) {
         for (int j = 0; j < layout_.ny; ++j) findSpeedsOfRow(cells, j, layout_.nz);
 }
 
-/// With the ghosts at both ends. A ghost beyond a far side has no face of its own axis ahead of it; nobody needs it.
+/// Includes the ghosts at both ends. A ghost beyond a far side lacks the next face along its axis, which is not needed.
 void CurlField::findSpeedsOfRow(const CellField& cells, int j, int k) {
     const std::size_t first = layout_.at(-1, j, k), count = layout_.row;
     const float* own = cells.cell(first);

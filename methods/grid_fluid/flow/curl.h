@@ -1,7 +1,7 @@
 // The curl of the flow at the centres of the cells, slab by slab. Internal to the forces.
 //
-// Speeds are brought to the centres and split by component first, so that the differences are those of plain rows.
-// Units: metres per second, 1/s. Threads: slabs apart. The caller owns the memory.
+// Speeds are first interpolated to the centres and split by component, so that differences run over plain rows.
+// Units: metres per second, 1/s. Threads: slabs are independent. The caller owns the memory.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace dustbench::grid_fluid::flow {
 
 class CurlField {
  public:
-    /// As much memory as a field of cells has.
+    /// Needs as much memory as a field of cells.
     static std::size_t floats(const CellLayout& layout) { return lanes * layout.padded(); }
     CurlField(const CellLayout& layout, std::span<float> memory);
 
@@ -26,7 +26,7 @@ class CurlField {
     /// |ω|, in the memory of the speeds, which the curl of slabs k − 1 to k + 1 no longer needs.
     void findLength(int k);
 
-    /// ω by axis, of all cells without ghosts, x fastest. Whoever has read it may write there.
+    /// ω by axis, of all cells without ghosts, x fastest. Callers may overwrite it after reading.
     [[nodiscard]] const std::array<float*, 3>& curl() const { return curl_; }
     /// |ω| of a row's cells.
     [[nodiscard]] const float* length(int j, int k) const { return speeds_[0] + layout_.at(0, j, k); }

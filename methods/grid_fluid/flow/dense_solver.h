@@ -12,7 +12,7 @@ class DenseSolver {
  public:
     /// `matrix` is n×n, row by row, symmetric and positive semidefinite.
     void factor(std::vector<double> matrix, std::size_t n);
-    /// In place.
+    /// Solves in place.
     void solve(std::vector<double>& x) const;
 
  private:

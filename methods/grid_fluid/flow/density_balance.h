@@ -1,4 +1,4 @@
-// Conserves the total density of a cloud: semi-Lagrangian advection does not, and thin clouds gain most.
+// Conserves the total density of a cloud. Semi-Lagrangian advection does not; thin clouds gain most.
 //
 // Units: sums over cells of fluid. Threads: slabs independently, summed in order.
 #pragma once
@@ -13,7 +13,7 @@ namespace dustbench::grid_fluid::flow {
 
 [[nodiscard]] double densityTotal(const CellField& cells, const CellLayout& layout);
 /// Density that leaves through open sides within a step, by the speeds of the faces there. `cellsPerSpeed` = Δt/h.
-/// `note`, unless null, gets it face by face.
+/// `note`, unless null, receives it for each face.
 [[nodiscard]] double densityLeaving(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance,
                                     float cellsPerSpeed, std::vector<LeavingDensity>* note = nullptr);
 /// Scales all densities so that they sum to `total`, by at most a tenth.

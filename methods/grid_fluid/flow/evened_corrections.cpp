@@ -17,12 +17,12 @@ void mirror(CellField& corrections, const CellLayout& layout, glm::ivec3 ghost, 
             for (std::size_t r = 0; r < count; ++r) to[r * lanes + static_cast<std::size_t>(axis)] = 0;
 }
 
-/// κ/4 of the float at `place` of a row of records.
+/// κ/4 for the float at `place` in a row of records.
 constexpr float quarterKept(std::size_t place) {
     return 0.25f * (place % lanes < density ? keptOfSpeeds : keptOfCentres);
 }
 
-/// κ/4 of as many floats as a vector has, from `first` on.
+/// κ/4 for the floats of one vector, from `first` on.
 template <typename Vector, std::size_t first>
 constexpr Vector quartersKept() {
     return []<std::size_t... place>(std::index_sequence<place...>) {
@@ -31,7 +31,7 @@ constexpr Vector quartersKept() {
     (std::make_index_sequence<sizeof(Vector) / sizeof(float)>{});
 }
 
-/// φ̂ + c' of a row, a vector of floats at a time; neighbours along y and z lie `row` and `slab` floats away.
+/// φ̂ + c' of a row, one vector of floats at a time; neighbours along y and z are `row` and `slab` floats away.
 struct EvenedRow {
     const float *corrections, *guess;
     float* to;

@@ -1,4 +1,4 @@
-// Density that a fluid's box gives to what lies around it, or gets from there.
+// Density that a fluid's box passes to its surroundings, or receives from them.
 //
 // Units: cells, and density summed over cells.
 #pragma once
@@ -7,16 +7,16 @@
 
 namespace dustbench::grid_fluid::flow {
 
-/// What left the box through a face of an open side in a step.
+/// The density that left the box through a face of an open side in a step.
 struct LeavingDensity {
-    glm::ivec3 cell;  ///< the one that it left
+    glm::ivec3 cell;  ///< the cell that it left
     int axis;         ///< of the face
     bool far;         ///< towards +axis
-    float cells;      ///< how far it got
+    float cells;      ///< distance that it travelled
     float density;    ///< summed over cells
 };
 
-/// What a cell gets.
+/// The density that a cell receives.
 struct AddedDensity {
     glm::ivec3 cell;
     float density;

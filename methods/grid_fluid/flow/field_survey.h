@@ -1,6 +1,6 @@
-// The greatest magnitude of each of a cell's numbers, and whether all are finite. Internal to the kernels.
+// The maximum magnitude of each quantity of the cells, and whether all values are finite. Internal to the kernels.
 //
-// A survey looks at rows while they are in the cache; those of several threads are put together.
+// A survey reads rows while they are in the cache; the surveys of several threads are merged.
 #pragma once
 
 #include <array>

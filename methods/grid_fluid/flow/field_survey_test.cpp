@@ -1,4 +1,4 @@
-// The survey of a field, compared with a plain loop over its numbers.
+// Compares the survey of a field with a plain loop over its values.
 #include "methods/grid_fluid/flow/field_survey.h"
 
 #include <gtest/gtest.h>

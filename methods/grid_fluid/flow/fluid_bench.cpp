@@ -1,5 +1,5 @@
-// A smoke step of 128×64×64 cells past a sphere, whole (and in a box of eight times the cells) and by kernel, with the
-// memory bandwidth for comparison.
+// Benchmarks a smoke step of 128×64×64 cells past a sphere, as a whole (also in a box of eight times the cells) and by
+// kernel, with the memory bandwidth for comparison.
 //
 // Spacing and time step are 1, so that speeds are in cells per step and the maximum divergence is comparable with that
 // of other solvers. `GB/s` is the minimum memory traffic of a kernel divided by its time; compare it with Triad of the
@@ -37,7 +37,7 @@ class Plume {
             inside.resize(settings.box.cellCount());
             setSphere(0);
         }
-        // The largest box measures size; its flow need not be developed.
+        // The largest box measures the effect of size; its flow need not be developed.
         const int steps = cells.z > 128 ? 5 : 60;
         for (int step = 0; step < steps; ++step) {
             if (moving) setSphere(step);

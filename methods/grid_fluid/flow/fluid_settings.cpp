@@ -73,7 +73,7 @@ void throwLostNumber(const CellField& cells, const CellLayout& layout, std::int6
                         throw SimulationError("fluid: after step " + std::to_string(steps) + " the " +
                                               std::string(laneNames[lane]) + " of cell " + std::to_string(i) + ", " +
                                               std::to_string(j) + ", " + std::to_string(k) + " is not a number");
-    throw std::logic_error("fluid: a number was lost and is there again");
+    throw std::logic_error("fluid: a state was reported as not finite, but all of its values are finite");
 }
 
 }  // namespace dustbench::grid_fluid::flow

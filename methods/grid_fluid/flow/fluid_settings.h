@@ -19,7 +19,7 @@ struct FluidSettings {
     /// Removes density created by advection, in proportion everywhere, and restores density lost by advection or
     /// covered by solids.
     bool keepsDensity = false;
-    bool notesLeaving = false;  ///< what leaves through open sides is noted, for Solver::leaving
+    bool notesLeaving = false;  ///< records density that leaves through open sides, for Solver::leaving
     ForceSettings forces;
     PressureMethod pressure = PressureMethod::multigrid;
     int jacobiSweeps = 20;

@@ -258,7 +258,7 @@ float FluidSolver::divergencePerStep() const {
 }
 
 void FluidSolver::gather(Lane, const gpu::Texture&) const {
-    throw std::logic_error("a fluid that is solved on the CPU lies in no texture");
+    throw std::logic_error("a fluid that is solved on the CPU has no textures");
 }
 
 std::vector<float> FluidSolver::pressuresM2PerS2() const {

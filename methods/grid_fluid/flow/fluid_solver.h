@@ -2,7 +2,7 @@
 //
 // A step advects all quantities, adds sources and forces, and makes the flow divergence-free.
 // Units: SI. Frame: world. Owns all fields; memory is on the ledger. Threads: one caller; its loops use the current
-// arena, and no result depends on how many threads there are. Source: Crane2007, 30.2; Senger2009, 4.1. Departs: see
+// arena, and results do not depend on the number of threads. Source: Crane2007, 30.2; Senger2009, 4.1. Departs: see
 // reports/decisions/0006-fluid-grid.md.
 #pragma once
 
@@ -50,7 +50,7 @@ class FluidSolver final : public Solver {
         return cells_;
     }
     [[nodiscard]] const SolidCells& solids() const { return solids_; }
-    /// Greatest |∇·u|·Δt of the stored faces, by the last step's Δt; 0 before the first.
+    /// Maximum |∇·u|·Δt of the stored faces, with the last step's Δt; 0 before the first.
     [[nodiscard]] float divergencePerStep() const override;
 
  private:
@@ -60,7 +60,7 @@ class FluidSolver final : public Solver {
     void advect(float stepSeconds);
     PressureResult project(float stepSeconds);
     void findMaximumSpeeds();
-    /// Keeps the greatest speeds. Throws InputError where a number of the state is not finite.
+    /// Stores the maximum speeds. Throws InputError if a value of the state is not finite.
     void note(const FieldSurvey& survey);
     [[nodiscard]] std::size_t floatsToLend() const;
     [[nodiscard]] std::span<float> borrowed() { return {spare_.data(), spare_.floats()}; }
@@ -74,7 +74,7 @@ class FluidSolver final : public Solver {
     PressureSolver pressure_;
     CellField cells_, spare_;  ///< `spare_`: the previous state; between steps, memory for forces and pressure
     SolidCells solids_;
-    bool sameSolids_ = false;  ///< as in the last projection
+    bool sameSolids_ = false;  ///< solids are the same as in the last projection
     Advection advection_;
     glm::vec3 maximumSpeeds_{0};
     bool speedsKnown_ = false;
@@ -82,7 +82,7 @@ class FluidSolver final : public Solver {
     std::vector<LeavingDensity> leaving_;
     std::int64_t steps_ = 0;
     double lastStepSeconds_ = 0;
-    float advectedSeconds_ = 0;  ///< the last step that the flow has taken, 0 if the state was set since
+    float advectedSeconds_ = 0;  ///< duration of the flow's last step; 0 if the state was set since
 };
 
 }  // namespace dustbench::grid_fluid::flow

@@ -1,4 +1,5 @@
-// The whole solver: known solutions, conserved quantities and bad input. Over 400 lines: most tests share one plume.
+// Tests the whole solver: known solutions, conserved quantities and bad input. Over 400 lines: most tests share one
+// plume.
 #include "methods/grid_fluid/flow/fluid_solver.h"
 
 #include <gtest/gtest.h>
@@ -112,7 +113,7 @@ TEST(FluidSolver, KeepsTheDivergenceBelowTheToleranceWithMovingSolids) {
         plume.setSphere({0.6 + 0.03 * step, 1.5, 1.2}, {1.0f, 0, 0});
         const StepReport report = plume.solver->step(0.03, plume.sources);
         EXPECT_LE(report.divergencePerStep, 1e-3f) << "step " << step;
-        EXPECT_LE(plume.solver->divergencePerStep(), 1.01e-3f) << "what is stored, step " << step;
+        EXPECT_LE(plume.solver->divergencePerStep(), 1.01e-3f) << "stored flow after step " << step;
         EXPECT_LE(report.pressure.cycles, 6) << "step " << step;
     }
     // The sphere is empty and has the velocity that was set.
@@ -168,8 +169,8 @@ TEST(FluidSolver, WarmSmokeRisesAndColdSmokeSinks) {
 }
 
 TEST(FluidSolver, LosesLittleOfTheDensityOrNone) {
-    // A cloud under the lid of a closed box: interpolation and clamp do not conserve. It loses 12.6 % in 40 steps, and
-    // 3 % with cells half as wide.
+    // A cloud under the lid of a closed box: interpolation and clamp are not conservative. It loses 12.6 % in 40 steps,
+    // and 3 % with cells half as wide.
     const auto kept = [](bool keepsDensity, int steps, int finer) {
         Plume plume;
         plume.settings.box = {plume.settings.box.cells * finer, 0.1 / finer, {0, 0, 0}};
@@ -202,11 +203,12 @@ TEST(FluidSolver, CarriesNoNoiseAtTheGridsScale) {
         plume.solver->gatherStored(lane, stored);
         return gridNoise(stored, plume.inside, plume.settings.box.cells);
     };
-    // With all numbers at the centres and faces as their means, the speed had 1e-2 (revert) and 1e-1 (clamp).
+    // With all quantities at the centres and faces as means, the speed had 1e-2 (revert) and 1e-1 (clamp).
     for (const Limit limit : {Limit::clamp, Limit::revert, Limit::none}) {
         for (const bool withSphere : {false, true})
             EXPECT_LE(noise(limit, withSphere, 0.5f, velocityY), 2e-3) << static_cast<int>(limit) << withSphere;
-        // A plume whose own edges have less: without a correction 8e-5, with whole ones 1.4e-3 (revert) and 2.3e-3.
+        // A plume whose edges alone have less: 8e-5 without corrections, 1.4e-3 (revert) and 2.3e-3 with unfiltered
+        // ones.
         EXPECT_LE(noise(limit, false, 0.2f, density), 1e-3) << static_cast<int>(limit);
     }
 }
@@ -318,7 +320,7 @@ TEST(FluidSolver, ScrollsByWholeCells) {
 }
 
 TEST(FluidSolver, PathsReachAsFarAsASolidIsFastThatTheAirIsNot) {
-    // The same step with the greatest speeds searched in the whole state.
+    // The same step, with the maximum speeds searched in the whole state.
     const auto stateAfter = [](bool searched) {
         Plume plume({12, 12, 12});
         plume.start();

@@ -1,7 +1,7 @@
 // A source of smoke, heat, fuel and motion: a ball with a soft edge.
 //
 // Units: metres, seconds. Frame: world. Source: Senger2009, 4.3 (a Gaussian, times a function of time).
-// Departs: strengths are per second; their variation with time is up to the caller.
+// Departs: strengths are per second; the caller varies them with time.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -42,19 +42,19 @@ void confineRow(const CurlField& field, const CellLayout& layout, int j, int k, 
     cell(nx - 1, own[nx - 2], own[nx - 1]);
 }
 
-/// What confinement adds to the faces of a row's cells, in m/s.
+/// Speeds that confinement adds to the faces of a row's cells, in m/s.
 struct ConfinedRow {
     std::array<float, maximumForcedCells> x, y, z;
     std::array<float, maximumForcedCells + 3> sum;  ///< over rows; see sumOfRows
 };
 
-/// Shares of the cells around a cell, (1, 2, 1)/4, and around the face towards its neighbour before it: the mean of the
-/// shares around both.
+/// Weights of the cells around a cell, (1, 2, 1)/4, and around the face towards its previous neighbour: the mean of the
+/// weights around both cells.
 constexpr std::array<float, 3> aroundCell{0.25f, 0.5f, 0.25f};
-constexpr std::array<float, 4> aroundFace{0.125f, 0.375f, 0.375f, 0.125f};  // from two cells before to one behind
+constexpr std::array<float, 4> aroundFace{0.125f, 0.375f, 0.375f, 0.125f};  // from two cells before to one after
 
-/// The sum over rows around row (j, k) with these shares along y and z; beyond the box its outermost rows again. `sum`
-/// has room for two cells before the row and one behind it.
+/// The sum over rows around row (j, k) with these weights along y and z; beyond the box the outermost rows are
+/// repeated. `sum` has room for two cells before the row and one behind it.
 template <std::size_t ofY, std::size_t ofZ>
 void sumOfRows(const float* field, const CellLayout& layout, int j, int k, const std::array<float, ofY>& sharesY,
                const std::array<float, ofZ>& sharesZ, float* sum) {
@@ -81,8 +81,8 @@ void sumOfRows(const float* field, const CellLayout& layout, int j, int k, const
     sum[nx] = sum[nx - 1];
 }
 
-/// A face has the mean force of its two cells, spread beforehand over the cells around each, by (1, 2, 1)/4 along each
-/// axis: N turns from cell to cell where |ω| varies little, and so would the force.
+/// A face gets the mean force of its two cells, which is first smoothed over the cells around each by (1, 2, 1)/4 along
+/// each axis. Otherwise it would change direction from cell to cell where |ω| varies little, as N does.
 void facesOfRow(const CurlField& field, const CellLayout& layout, int j, int k, ConfinedRow& row) {
     const auto nx = static_cast<std::size_t>(layout.nx);
     const auto& force = field.curl();
@@ -109,7 +109,7 @@ float orNothing(float value) {
     return value > nothing || value < -nothing ? value : 0.0f;
 }
 
-/// `sixteenCells(first)` where everything of sixteen cells moves, otherwise `cell(i)` one by one.
+/// Calls `sixteenCells(first)` where all parts of sixteen cells move, otherwise `cell(i)` one by one.
 template <typename SixteenCells, typename Cell>
 void forMoving(const Moving* moving, std::size_t cells, const SixteenCells& sixteenCells, const Cell& cell) {
     for (std::size_t i = 0; i < cells; i += SixteenRecords::count) {
@@ -126,7 +126,7 @@ void forMoving(const Moving* moving, std::size_t cells, const SixteenCells& sixt
 /// Lift at the centres of a row's cells, in m/s.
 using LiftedRow = std::array<float, maximumForcedCells>;
 
-/// What a step changes in the cells of a row: forces on the faces, and decay at the centres.
+/// The changes of a step to the cells of a row: forces on the faces, and decay at the centres.
 class Change {
  public:
     Change(const ForceSettings& settings, float stepSeconds)
@@ -136,8 +136,8 @@ class Change {
           keptHeat_(std::exp(-settings.coolingPerSecond * stepSeconds)),
           lost_(settings.reactionLossPerSecond * stepSeconds) {}
 
-    /// Rows of a slab in the order of j: `below` holds the lift of row j − 1, before it changed, and receives that of
-    /// this row.
+    /// Call this for the rows of a slab in the order of j: `below` contains the lift of row j − 1 before its change,
+    /// and receives that of this row.
     void row(CellField& cells, const CellLayout& layout, const Moving* moving, int j, int k, const ConfinedRow& force,
              LiftedRow& below) const {
         const std::size_t at = layout.at(0, j, k);
@@ -145,7 +145,7 @@ class Change {
         const auto liftOf = [&](const auto& heat, const auto& smoke) { return buoyancy_ * heat - weight_ * smoke; };
         const auto cell = [&](std::size_t i) {
             float* record = records + i * lanes;
-            // Solids hold neither heat nor density.
+            // Solids contain neither heat nor density.
             const float lift = liftOf(record[temperature], record[density]);
             const std::array<float, 3> added{force.x[i], 0.5f * (below[i] + lift) + force.y[i], force.z[i]};
             below[i] = lift;
@@ -194,7 +194,7 @@ void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t*
         ConfinedRow force;
         if (!confined)
             for (auto* axis : {&force.x, &force.y, &force.z}) std::fill_n(axis->begin(), layout.nx, 0.0f);
-        LiftedRow below;  // the first row's faces are the box's side, and do not move
+        LiftedRow below;  // the faces of the first row are on the box's side and do not move
         std::fill_n(below.begin(), layout.nx, 0.0f);
         for (int j = 0; j < layout.ny; ++j) {
             if (confined) facesOfRow(curl, layout, j, k, force);

@@ -3,8 +3,8 @@
 // Units: SI; temperature is relative to the air; density and reaction are dimensionless.
 // Threads: slabs in blocks, each stage following the one before (for_stages.h).
 // Source: Fedkiw2001, Eq. 8 (buoyancy), Eq. 11 (confinement); Senger2009, Eq. 7 (reaction).
-// Departs: rates are per second, not per step; confinement is given per second, f = ε·h·(N × ω), and spread over the
-// cells around by (1, 2, 1)/4 along each axis.
+// Departs: rates are per second, not per step; confinement is given per second, f = ε·h·(N × ω), and smoothed by
+// (1, 2, 1)/4 along each axis.
 #pragma once
 
 #include <cstdint>
@@ -25,9 +25,9 @@ struct ForceSettings {
     float viscosityM2PerSecond = 0;   ///< ν
 };
 
-/// Applies all forces except viscosity over a step; `cells` with ghosts, `conductance` and `moving` of SolidCells.
-/// Forces are found at the centres, beyond the box those of its outermost cells; a face has the mean of its two cells.
-/// `borrowed` has at least `forceFloats` floats.
+/// Applies all forces except viscosity over a step; `cells` with ghosts, `conductance` and `moving` from SolidCells.
+/// Forces are computed at the centres, and beyond the box equal those of its outermost cells; a face gets the mean of
+/// its two cells. `borrowed` must have at least `forceFloats` floats.
 void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, const Moving* moving,
                  const ForceSettings& settings, float spacingMetres, float stepSeconds, std::span<float> borrowed);
 [[nodiscard]] std::size_t forceFloats(const CellLayout& layout);

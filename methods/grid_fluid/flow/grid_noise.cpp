@@ -27,7 +27,7 @@ struct Power {
     double high = 0, all = 0;
 };
 
-/// |Σ vⱼ·e^(−2πi·jf/N)|² over the frequencies above 0, of values under their window.
+/// |Σ vⱼ·e^(−2πi·jf/N)|² for the frequencies above 0, of windowed values.
 Power powerOf(const std::vector<double>& values, const Turns& turns) {
     const std::size_t count = values.size(), highest = count / 2;
     Power power;
@@ -37,7 +37,7 @@ Power powerOf(const std::vector<double>& values, const Turns& turns) {
             real += values[j] * turns.cosines[turn];
             imaginary += values[j] * turns.sines[turn];
         }
-        // A frequency stands for two but for that of ±1, ∓1.
+        // Each frequency counts twice, except that of ±1, ∓1.
         const double here = (real * real + imaginary * imaginary) * (2 * f == count ? 1 : 2);
         power.all += here;
         if (5 * f > 4 * highest) power.high += here;

@@ -1,9 +1,9 @@
 // Noise at the grid's scale: the share of a quantity's variance along the vertical that lies in the top fifth of the
 // spectrum.
 //
-// A stripe or speckle one or two cells wide is there; what a flow does at the scales that the grid resolves is not.
-// Each column of cells is taken by itself, less its mean, under a Hann window; power is summed over all columns.
-// Threads: columns in blocks, in the current arena; the same at any number of them.
+// Stripes and speckle one or two cells wide are in this range; flow at scales that the grid resolves is not. Each
+// column of cells is processed separately, minus its mean, under a Hann window; power is summed over all columns.
+// Threads: columns in blocks, in the current arena; results do not depend on their number.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace dustbench::grid_fluid::flow {
 
-/// Of waves shorter than 2.5 cells, 0…1; 0 where nothing varies. `values`: one for each cell, x fastest. Columns with a
-/// cell that is not 0 in `solids` are left out; it may be empty. Columns of fewer than 10 cells have no fifth of their
-/// spectrum: 0.
+/// The share of waves shorter than 2.5 cells, 0…1; 0 if nothing varies. `values`: one for each cell, x fastest. Columns
+/// with a cell that is not 0 in `solids` are omitted; `solids` may be empty. Returns 0 for columns of fewer than 10
+/// cells, since their spectrum cannot be divided into fifths.
 [[nodiscard]] double gridNoise(std::span<const float> values, std::span<const std::uint8_t> solids,
                                const glm::ivec3& cells);
 

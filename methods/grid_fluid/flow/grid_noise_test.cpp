@@ -1,4 +1,4 @@
-// The measure of noise: known waves, white noise, solids.
+// Tests the measure of noise with known waves, white noise and solids.
 #include "methods/grid_fluid/flow/grid_noise.h"
 
 #include <gtest/gtest.h>
@@ -22,14 +22,14 @@ std::vector<float> field(const Value& value) {
     return values;
 }
 
-/// Waves of so many cells along the vertical.
+/// Waves of a given length in cells along the vertical.
 std::vector<float> waves(double length, double mean = 0) {
     return field([&](int i, int j, int k) { return mean + std::cos(2 * std::numbers::pi * j / length + i + 2 * k); });
 }
 
 TEST(GridNoise, IsTheShareOfWavesShorterThanTwoAndAHalfCells) {
     EXPECT_NEAR(gridNoise(waves(20), {}, cells), 0, 1e-4);
-    EXPECT_NEAR(gridNoise(waves(20, 1000), {}, cells), 0, 1e-4);  // whatever the mean is
+    EXPECT_NEAR(gridNoise(waves(20, 1000), {}, cells), 0, 1e-4);  // independent of the mean
     EXPECT_NEAR(gridNoise(waves(4), {}, cells), 0, 1e-3);
     EXPECT_NEAR(gridNoise(waves(2.2), {}, cells), 1, 1e-3);
     EXPECT_NEAR(gridNoise(field([](int, int j, int) { return j % 2 == 0 ? 1 : -1; }), {}, cells), 1, 1e-3);

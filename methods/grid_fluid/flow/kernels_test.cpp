@@ -1,4 +1,4 @@
-// Advection and forces, compared with simple reference implementations.
+// Compares advection and forces with simple reference implementations.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,8 +19,8 @@ constexpr std::array allRules{AdvectionRule{AdvectionScheme::semiLagrangian, Lim
                               AdvectionRule{AdvectionScheme::macCormack, Limit::revert},
                               AdvectionRule{AdvectionScheme::macCormack, Limit::none}};
 
-/// Numbers that are not as in the plain form. A position on the border of two cells may be rounded to either side,
-/// where the extrema differ.
+/// Values that differ from those of the reference implementation. A position on the border of two cells may be rounded
+/// to either side, where the extrema differ.
 int differing(const World& world, const std::vector<PlainRecord>& plain, float speed) {
     int different = 0;
     for (int k = 0; k < world.layout.nz; ++k)
@@ -75,7 +75,7 @@ TEST(Advection, AlongThePathsOfTheMiddleOfTheStepEqualsThePlainOne) {
 
 TEST(SolidCells, FacesHaveTheSpeedOfTheSolidAheadElseOfThatBehind) {
     const glm::ivec3 size(37, 9, 11);
-    for (const double share : {0.002, 0.02, 0.4}) {  // rows that hold few solids or none are left out early
+    for (const double share : {0.002, 0.02, 0.4}) {  // rows with few solids or none are skipped early
         World world(size);
         world.fillRandom(1);
         std::vector<float> before(world.from.data(), world.from.data() + world.from.floats());
@@ -180,7 +180,7 @@ TEST(Forces, ConfinementTurnsAroundAVortexRing) {
     EXPECT_GT(fed, 0.1);
 }
 
-/// The equations of the forces, in double precision; `before` is the state that they act on.
+/// The equations of the forces, in double precision; they act on the state `before`.
 struct SlowForces {
     const World& world;
     const CellField& before;
@@ -220,7 +220,7 @@ struct SlowForces {
         if (!(glm::length(towards) > 0)) return glm::dvec3(0);
         return epsilon * h * glm::cross(glm::normalize(towards), curl(cell));
     }
-    /// At the centre of a cell; of the nearest one of the box.
+    /// At the centre of a cell, or of the nearest cell of the box.
     [[nodiscard]] glm::dvec3 force(glm::ivec3 cell) const {
         cell = clamped(cell);
         glm::dvec3 sum(0);
@@ -233,7 +233,7 @@ struct SlowForces {
                  static_cast<double>(settings.weightPerDensity) * of(cell, density);
         return sum;
     }
-    /// The 27 cells around a cell and itself.
+    /// The 27 cells in and around a cell.
     static std::vector<glm::ivec3> around() {
         std::vector<glm::ivec3> all;
         all.reserve(27);

@@ -44,8 +44,8 @@ inline constexpr bool sixteenAtOnce = false;
     return numbers;
 }
 
-/// Writes those of `values` whose `condition` is -1, not 0, one behind the other, and returns how many; `to` has room
-/// for sixteen.
+/// Writes the `values` whose `condition` is -1 instead of 0 consecutively, and returns their number; `to` must have
+/// room for sixteen.
 [[gnu::always_inline]] inline std::size_t storeWhere(const Int16& condition, const Int16& values, int* to) {
 #ifdef __AVX512F__
     const __mmask16 those =
@@ -78,7 +78,7 @@ template <typename Vector>
     return result;
 }
 
-/// a + share·(b − a), lane by lane; the share of each.
+/// a + share·(b − a), lane by lane, with a share for each lane.
 template <typename Vector>
 [[gnu::always_inline]] inline Vector mixed(const Vector& a, const Vector& b, const Vector& share) {
     return fused(share, b - a, a);

@@ -10,13 +10,13 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-/// Where the quantities of a cell are looked up: each at its own place, in cells from that of the first ghost.
+/// The places where the quantities of a cell are sampled, in cells from that of the first ghost.
 struct PlainPlaces {
     std::array<glm::dvec3, 4> at;  ///< of the faces across x, y, z and of the centre
     [[nodiscard]] const glm::dvec3& of(std::size_t lane) const { return at[std::min<std::size_t>(lane, 3)]; }
 };
 
-/// Calls `take(cell, the nearest in the box)` for all padded cells.
+/// Calls `take(cell, nearest cell in the box)` for all padded cells.
 template <typename Take>
 void forPadded(const CellLayout& layout, const Take& take) {
     const glm::ivec3 size(layout.nx, layout.ny, layout.nz);
@@ -55,7 +55,7 @@ double limited(Limit limit, double corrected, double guess, double minimum, doub
     return corrected;
 }
 
-/// Paths of cells and faces through the velocities at a time.
+/// Paths of cells and faces through the velocities at one time.
 class Paths {
  public:
     Paths(const CellLayout& layout, std::vector<glm::dvec3> centres, double dt)

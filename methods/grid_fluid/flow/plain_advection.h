@@ -1,7 +1,7 @@
-// Plain advection in whole fields and double precision, the reference for Advection.
+// Plain advection of whole fields in double precision; the reference implementation of Advection.
 //
 //     x₋ = x − Δt·u(x − ½Δt·u(x))        departure point of a cell
-//     φ̂(x) = φ(x₋)                        the first guess, all there is to the semi-Lagrangian scheme
+//     φ̂(x) = φ(x₋)                        the first guess, and the result of the semi-Lagrangian scheme
 //     x₊ = x₋ + 2Δt·u(x)                  the path ahead, mirrored
 //     u = uⁿ + a·(uⁿ − uⁿ⁻¹)              if paths follow the velocity at the middle of the step
 //     φ(x) ← φ̂(x) + ½(φ(x) − φ̂(x₊))      corrected, within the extrema of the eight cells around x₋
@@ -20,7 +20,7 @@ namespace dustbench::grid_fluid::flow {
 
 using PlainRecord = std::array<double, lanes>;
 
-/// Velocities at the centres of all padded cells, beyond the box those of the outermost.
+/// Velocities at the centres of all padded cells; beyond the box those of the outermost cells.
 [[nodiscard]] std::vector<glm::dvec3> plainCentres(const CellField& cells, const CellLayout& layout);
 
 /// For VelocityAt::middle.

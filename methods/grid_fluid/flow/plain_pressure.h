@@ -1,4 +1,4 @@
-// The pressure equation and its sweeps, cell by cell: the reference for PressureSolver.
+// The pressure equation and its sweeps, cell by cell; the reference implementation of PressureSolver.
 //
 //     Σ w·(qₙ − q) = f        over the six faces of each cell of fluid
 //     q ← (Σ w·qₙ − f) / Σ w  one sweep

@@ -1,7 +1,7 @@
-// Plain projection, face by face: the reference for gatherDivergence and subtractGradient.
+// Plain projection, face by face; the reference implementation of gatherDivergence and subtractGradient.
 //
 //     h·∇·u = Σ ±u_f           over the six faces of a cell of fluid
-//     u_f ← u_f − w·(q − q₋)    w is 0 beside a solid, wall or inflow, 1 in fluid, 2 at an open side, where q is 0
+//     u_f ← u_f − w·(q − q₋)    w is 0 at a solid, wall or inflow, 1 in fluid, 2 at an open side, where q is 0
 //
 // In double precision. Units: see projection.h. Source: Harlow1965 (staggered grid); Crane2007, 30.2.4 (solids).
 #pragma once

@@ -201,7 +201,7 @@ float PoissonLevel::rowResidual(int colour, int j, int k, float* out) const {
     const Around p = aroundRow(layout, pressure.colour[1 - colour], colour, j, k);
     const float* own = pressure.colour[colour] + at;
     const float* f = rightSide.colour[colour] + at;
-    // As integers, the magnitudes of floats have the same order, and NaN is above all.
+    // As integers, the magnitudes of floats have the same order, and NaN is above all others.
     std::int32_t maximum = 0;
     const auto magnitude = [](float r) { return std::bit_cast<std::int32_t>(r) & 0x7fffffff; };
     if (finest) {

@@ -20,7 +20,8 @@ class PoissonLevel {
 
     /// Builds the finest grid from SolidCells::conductance.
     void build(const CellLayout& cells, const std::uint8_t* conductance);
-    /// Builds a coarser grid: a face conducts the sum of its finer faces, over the distance between its cells' centres.
+    /// Builds a coarser grid: a face conducts the sum of its finer faces, divided by the distance of its cells'
+    /// centres.
     void buildFrom(const PoissonLevel& finer);
 
     void clearPressure();
@@ -57,7 +58,7 @@ class PoissonLevel {
  private:
     /// Index 0 is the ghost before the first cell.
     using FaceRow = std::array<float, 4100>;
-    /// Adds the weights of the faces behind the cells of a row; along x also that before the first.
+    /// Adds the weights of the faces behind the cells of a row; along x also the face before the first cell.
     void readFaces(int axis, int j, int k, FaceRow& row) const;
     /// A row's pressure before a sweep: from memory, zero for it and its neighbours, or zero for itself only.
     enum class Guess { memory, zero, ownZero };

@@ -23,7 +23,7 @@ enum class PressureMethod { jacobi, multigrid };
 struct PressureRule {
     PressureMethod method = PressureMethod::multigrid;
     int jacobiSweeps = 20;
-    int maximumCycles = 30;    ///< of the multigrid
+    int maximumCycles = 30;    ///< of multigrid
     float tolerance = 0.001f;  ///< maximum residual, in the units of the right side
 };
 
@@ -39,10 +39,10 @@ class PressureSolver {
 
     /// Number of floats to borrow.
     [[nodiscard]] std::size_t floatsNeeded() const { return floatsNeeded_; }
-    /// Borrows memory and builds the operator for these solids (SolidCells::conductance). What does not lie in that
-    /// memory is kept if they are the same as in the last call.
+    /// Borrows memory and builds the operator for these solids (SolidCells::conductance). Data outside that memory is
+    /// reused if the solids are the same as in the last call.
     void build(std::span<float> memory, const std::uint8_t* conductance, bool sameSolids = false);
-    /// Fill in its right side before `solve`. Afterwards it holds the pressure.
+    /// Fill in its right side before `solve`. Afterwards it contains the pressure.
     [[nodiscard]] PoissonLevel& finest() { return *levels_.front(); }
     [[nodiscard]] const PoissonLevel& finest() const { return *levels_.front(); }
     PressureResult solve(const PressureRule& rule);

@@ -200,7 +200,8 @@ TEST(Projection, EqualsThePlainOne) {
 }
 
 TEST(Projection, LeavesNothingOfTheModeThatAlternatesFromFaceToFace) {
-    // u_i = (−1)^i along its own axis: the means of two faces are 0 everywhere, so centres would not see it.
+    // u_i = (−1)^i along its own axis: the means of two faces are 0 everywhere, so it would be invisible at the
+    // centres.
     for (int axis = 0; axis < 3; ++axis) {
         World world({32, 32, 32}, closed);
         for (int k = 0; k < 32; ++k)
@@ -267,7 +268,8 @@ TEST(Pressure, JacobiConvergesToTheSame) {
 }
 
 TEST(Pressure, KeepsWhatLiesElsewhereWithTheSameSolidsOnly) {
-    // Without solids, then with a wall that presses on what cannot leave, twice: each time as by a new solver.
+    // Without solids, then twice with a wall that compresses enclosed fluid: each time the result is that of a new
+    // solver.
     World world({16, 8, 8}, closed);
     world.fillRandom(1);
     world.inside.assign(1024, 0);

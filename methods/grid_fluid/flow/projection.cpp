@@ -18,7 +18,7 @@ constexpr std::size_t maximumProjectedCells = 4096;
 /// One number per cell of a row, and one more if the number of cells is odd.
 using Row = std::array<float, maximumProjectedCells + 1>;
 
-/// h·∇·u of a row's cells: the sum over the axes of the speed of the face ahead less that of the face before.
+/// h·∇·u of a row's cells: the sum over the axes of the speed of the next face minus that of the previous face.
 void divergenceOfRow(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, int j, int k,
                      Row& sums) {
     const std::size_t at = layout.at(0, j, k);
@@ -50,7 +50,7 @@ struct RowPressures {
     std::size_t half;
 };
 
-/// −h·∇q on the faces before a row's cells.
+/// −h·∇q on the previous faces of a row's cells.
 struct RowChanges {
     Row x, y, z;
 };
@@ -65,7 +65,7 @@ void changeAlong(const RowPressures q, Row& change) {
     }
 }
 
-/// The same with the neighbours before at distance `step`.
+/// The same with the previous neighbours at distance `step`.
 void changeAcross(const RowPressures q, std::size_t step, Row& change) {
     const float *even = q.even, *odd = q.odd;
 #pragma GCC ivdep
@@ -80,7 +80,7 @@ float weightOf(std::uint8_t before, std::uint8_t own) {
     return before == 0 || own == 0 ? 0.0f : static_cast<float>(std::max(before, own));
 }
 
-/// Whether sixteen cells and those before them on every axis are fluid.
+/// Whether sixteen cells and their previous neighbours on every axis are fluid.
 bool allConduct(const std::uint8_t* own, std::size_t row, std::size_t slab) {
     using Byte16 = std::uint8_t __attribute__((vector_size(16)));
     const auto unlike = [&](const std::uint8_t* from) {
@@ -94,7 +94,7 @@ bool allConduct(const std::uint8_t* own, std::size_t row, std::size_t slab) {
     return (halves[0] | halves[1]) == 0;
 }
 
-/// The faces on the far sides, whose records are ghosts: q is 0 beyond an open one.
+/// The faces on the far sides, whose records are ghosts; q is 0 beyond an open side.
 void subtractBeyond(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance,
                     const PoissonLevel& finest) {
     const glm::ivec3 size(layout.nx, layout.ny, layout.nz);

@@ -1,10 +1,9 @@
 // Makes the flow divergence-free: gathers ∇·u from each cell's faces and subtracts the gradient of the pressure from
 // them.
 //
-// The faces are the state, so what is stored balances to the solver's residual. Faces of solids, walls and inflows
-// stay. Units: the pressure is q = p·Δt/(ρ·h), in metres per second, so that h·∇·u = Σ w·(qₙ − q) and u −= h·∇q.
-// Threads: rows in blocks.
-// Source: Harlow1965 (staggered grid); Crane2007, 30.2.4 (solids).
+// The faces are the state, so the stored flow is divergence-free to the solver's residual. Faces of solids, walls and
+// inflows do not change. Units: the pressure is q = p·Δt/(ρ·h), in metres per second, so that h·∇·u = Σ w·(qₙ − q) and
+// u −= h·∇q. Threads: rows in blocks. Source: Harlow1965 (staggered grid); Crane2007, 30.2.4 (solids).
 #pragma once
 
 #include <span>
@@ -24,7 +23,7 @@ void gatherDivergence(const CellField& cells, const CellLayout& layout, const st
 FieldSurvey subtractGradient(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance,
                              const PoissonLevel& finest);
 
-/// The greatest |h·∇·u| over all cells of fluid.
+/// The maximum |h·∇·u| over all cells of fluid.
 [[nodiscard]] float maximumDivergence(const CellField& cells, const CellLayout& layout,
                                       const std::uint8_t* conductance);
 

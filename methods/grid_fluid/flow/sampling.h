@@ -1,11 +1,10 @@
 // Trilinear sampling of whole records, for a strip of cells at a time. Internal to the kernels.
 //
 // First the positions of all samples are computed, sixteen cells per vector; then the samples are read cell by cell,
-// six quantities per vector, so that many reads are in flight at once.
-// The faces of a cell have paths of their own, a little beside that of its centre. All quantities are read from the
-// eight records around the centre's position, each at its own share of the way between them; a face that lies between
-// other records is read again by itself. Frame: cells from the first ghost's own place, so that a quantity of cell (i,
-// j, k) lies at (i + 1, j + 1, k + 1), whether at the cell's centre or on its face.
+// six quantities per vector, so that many reads are in flight at once. The paths of a cell's faces differ slightly from
+// that of its centre. All quantities are read from the eight records around the centre's position, each with its own
+// interpolation weights; a face that is between other records is read again separately. Frame: cells from the first
+// ghost, so that a quantity of cell (i, j, k) is at (i + 1, j + 1, k + 1), whether at the cell's centre or on its face.
 #pragma once
 
 #include <algorithm>
@@ -45,9 +44,9 @@ struct RecordView {
 };
 
 enum class Memory : std::uint8_t { whole, ring };
-enum class Reads : std::uint8_t { samples, extrema };  ///< extrema need no shares of the way between the cells
+enum class Reads : std::uint8_t { samples, extrema };  ///< extrema need no interpolation weights
 
-/// The quantity of cell `i` of a strip that lies on one of its faces, and between other records than the centre.
+/// A quantity on a face of cell `i` of a strip that is between other records than the centre.
 struct Elsewhere {
     std::size_t i, lane;
 };
@@ -64,8 +63,8 @@ class CornerStrip {
     /// For a ring: samples will use slabs from here on, at most as many as the ring holds.
     void lookFrom(int slab) { shift_ = slab % view_.slabs - slab; }
 
-    /// The places of cells i to i + 15 of the strip, i a multiple of sixteen, from 0 on; those from `cells` on do not
-    /// count. All positions must lie within the places of the outermost ghosts.
+    /// The places of cells i to i + 15 of the strip, for i = 0, 16, 32 …; those from `cells` on are ignored. All
+    /// positions must lie within the places of the outermost ghosts.
     [[gnu::always_inline]] void find(std::size_t i, const PlacesOfCells& p, std::size_t cells) {
         const Cells x = cellsAlong<0>(p[0].x, p[1].x, p[2].x, p[3].x, i);
         const Cells y = cellsAlong<1>(p[0].y, p[1].y, p[2].y, p[3].y, i);
@@ -82,7 +81,7 @@ class CornerStrip {
                                           elsewhere_.data() + elsewhereCount_);
     }
 
-    /// Reads what was found, cell by cell. Copies what it needs, so that it can stay in registers.
+    /// Reads the samples cell by cell. Copies its data, so that they can stay in registers.
     class Reader {
      public:
         explicit Reader(const CornerStrip& strip)
@@ -95,8 +94,8 @@ class CornerStrip {
               elsewhere_(strip.elsewhere_.data()),
               elsewhereCount_(strip.elsewhereCount_) {}
 
-        /// Six quantities at position `i`, and two meaningless numbers. Those that lie elsewhere are to be read again
-        /// by themselves: asked for cell by cell, they would cost mispredicted branches.
+        /// Six quantities at position `i`, and two meaningless values. Quantities between other records must be read
+        /// again separately (forElsewhere), since a check for each cell would cost mispredicted branches.
         [[gnu::always_inline]] Float8 sample(std::size_t i) const {
             const auto along = [&](const auto& c, const auto& y, const auto& z) {
                 return mixed(mixed(c.a, c.b, y), mixed(c.c, c.d, y), z);
@@ -109,7 +108,7 @@ class CornerStrip {
                 return mixed(along(column<Float8>(i, 0), y, z), along(column<Float8>(i, lanes), y, z), ofRecord(i, 0));
             }
         }
-        /// Minimum and maximum of the eight numbers around, per quantity; the same holds of those elsewhere.
+        /// Minimum and maximum of the eight surrounding values, per quantity; except those between other records.
         [[gnu::always_inline]] void extrema(std::size_t i, Float8& minimum, Float8& maximum) const {
             if constexpr (sixteenAtOnce) {
                 const auto both = column<Float16>(i, 0);
@@ -122,7 +121,7 @@ class CornerStrip {
                 maximum = atLeast(maximumOf(first), maximumOf(second));
             }
         }
-        /// Calls `take(Elsewhere)` for all that lie elsewhere.
+        /// Calls `take(Elsewhere)` for all quantities between other records.
         template <typename Take>
         [[gnu::always_inline]] void forElsewhere(const Take& take) const {
             for (std::size_t n = 0; n < elsewhereCount_; ++n) {
@@ -144,8 +143,8 @@ class CornerStrip {
         }
 
      private:
-        /// Four records of equal x: those of larger y second, of larger z last. In a Float16 each is together with its
-        /// neighbour in x, which is adjacent in memory.
+        /// Four records of equal x: those of larger y second, of larger z last. A Float16 contains each together with
+        /// its neighbour in x, which is adjacent in memory.
         template <typename Vector>
         struct Column {
             Vector a, b, c, d;
@@ -165,8 +164,8 @@ class CornerStrip {
         [[gnu::always_inline]] static Vector maximumOf(const Column<Vector>& c) {
             return atLeast(atLeast(c.a, c.b), atLeast(c.c, c.d));
         }
-        /// The shares of a cell's faces across x, y, z and of its centre, by quantity. They are loaded as the vectors
-        /// that they become, for a wider shuffle of a narrow vector would pass through memory.
+        /// The weights of a cell's faces across x, y, z and of its centre, by quantity. They are loaded at their final
+        /// vector width, because widening a narrow vector would go through memory.
         [[gnu::always_inline]] Float8 ofRecord(std::size_t i, std::size_t axis) const {
             const auto f = load<Float8>(fractions_ + axis * fractionPitch + 4 * i);
             return __builtin_shufflevector(f, f, 0, 1, 2, 3, 3, 3, 3, 3);
@@ -249,7 +248,7 @@ class CornerStrip {
     std::array<int, 3> last_;
     std::size_t row_, slab_;  ///< floats from one row or slab to the next
     int shift_ = 0;
-    /// Of the way to the next cell, 0…1; along x, y, z, for the faces across x, y, z and for the centre.
+    /// Fractions of the way to the next cell, 0…1; along x, y, z, for the faces across x, y, z and for the centre.
     static constexpr std::size_t fractionPitch = 4 * stripCells + 16;
     alignas(64) std::array<std::array<float, fractionPitch>, 3> fractions_{};
     std::array<std::array<std::uint32_t, stripCells>, 4> low_{}, high_{};

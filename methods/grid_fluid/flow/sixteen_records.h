@@ -1,8 +1,7 @@
 // Transposes sixteen consecutive records into one vector per quantity. Internal to the kernels.
 //
-// Eight records are three vectors, in which every position belongs to a pair of quantities (0 and 1, 2 and 3, 4 and 5)
-// in exactly one of the three. So a pair of eight records is one blend of them, and a quantity one shuffle of two
-// pairs.
+// Eight records are three vectors. Every position belongs to a given pair of quantities (0 and 1, 2 and 3, 4 and 5) in
+// exactly one of the three. So a pair of eight records takes one blend, and a quantity one shuffle of two pairs.
 #pragma once
 
 #include <algorithm>

@@ -20,14 +20,14 @@ std::array<std::ptrdiff_t, 6> around(const CellLayout& layout) {
     return {-1, 1, -row, row, -slab, slab};
 }
 
-/// A vector of bytes at a time tells.
+/// Tests one vector of bytes at a time.
 bool anySolid(std::span<const std::uint8_t> row) {
     std::uint8_t any = 0;
     for (const std::uint8_t body : row) any |= body;
     return any != 0;
 }
 
-/// What of a cell moves: bit `lane` of a velocity, that of the centre for all else.
+/// The bit of a quantity that moves: bit `lane` for a velocity, that of the centre for all others.
 Moving bitOf(std::size_t lane) {
     return static_cast<Moving>(1u << std::min<std::size_t>(lane, 3));
 }
@@ -62,7 +62,7 @@ double SolidCells::cover(const SolidMask& mask, CellField& cells) {
             const std::size_t at = layout_.at(0, layout_.rowJ(r), layout_.rowK(r));
             std::uint8_t* conductance = conductance_.data() + at;
             const auto body = mask.body.empty() ? mask.body : mask.body.subspan(r * width, width);
-            const bool hasSolid = anySolid(body);  // most rows of most masks hold none
+            const bool hasSolid = anySolid(body);  // most rows of most masks have none
             rowHasSolid_[r] = hasSolid ? 1 : 0;
             if (!hasSolid) {
                 std::memset(conductance, 1, width);
@@ -80,8 +80,8 @@ double SolidCells::cover(const SolidMask& mask, CellField& cells) {
     return std::accumulate(covered.begin(), covered.end(), 0.0);
 }
 
-/// Each face between two cells belongs to the solid ahead of it, else to that behind; the far sides' included. Returns
-/// the greatest speed along each axis.
+/// Each face between two cells belongs to the solid ahead of it, otherwise to that behind it, including the far sides.
+/// Returns the maximum speed along each axis.
 glm::vec3 SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
     const glm::ivec3 size(layout_.nx, layout_.ny, layout_.nz);
     const auto indexOf = [&](glm::ivec3 cell) {
@@ -91,8 +91,8 @@ glm::vec3 SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
                static_cast<std::size_t>(cell.x);
     };
     const auto bodyOf = [&](glm::ivec3 cell) { return mask.body[indexOf(cell)]; };
-    // Along its own axis a rigid body has the same speed everywhere, so the cell's centre does for its face. One that
-    // deforms has the speeds of its surface in the cells beside it.
+    // A rigid body's speed along an axis is constant along that axis, so the cell's centre can be used for its face. A
+    // deforming solid has the speeds of its surface in the adjacent cells.
     const auto speedOf = [&](std::uint8_t body, glm::ivec3 cell, int axis) {
         return mask.velocityOf(body, indexOf(cell), cell)[axis];
     };
@@ -145,7 +145,7 @@ void SolidCells::findMoving() {
             Moving* moving = moving_.data() + at;
             if (isAllFluid(j, k) && isAllFluid(j - 1, k) && isAllFluid(j, k - 1)) {
                 std::memset(moving, allMoves, static_cast<std::size_t>(layout_.nx));
-                moving[0] = allMoves & ~bitOf(0);  // the face on the box's side
+                moving[0] = allMoves & ~bitOf(0);  // the face is on the box's side
                 continue;
             }
             const std::array<const std::uint8_t*, 3> before{own - steps[0], own - steps[1], own - steps[2]};
@@ -184,7 +184,7 @@ void SolidCells::findRim(const CellField& cells) {
                 };
                 add(density);
                 for (std::size_t axis = 0; axis < 3; ++axis)
-                    if ((own + i)[-steps[axis]] != 1) add(axis);  // else it is the surface itself
+                    if ((own + i)[-steps[axis]] != 1) add(axis);  // otherwise it is the surface itself
             }
         }
     });

@@ -1,7 +1,8 @@
-// The solid cells, the speeds of their faces, what moves between them, and the resulting conductance between cells.
+// The solid cells, the speeds of their faces, the moving parts of all cells, and the conductance between cells.
 //
-// Units: metres per second. Owns copies of what it is given. Threads: one writer.
-// Source: Crane2007, 30.2.4. Departs: inside or outside by cell; a solid's speed is kept on the faces of its cells.
+// Units: metres per second. Owns copies of its inputs. Threads: one writer.
+// Source: Crane2007, 30.2.4. Departs: each cell is inside or outside; a solid's speed is stored on the faces of its
+// cells.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +21,13 @@ class SolidCells {
  public:
     SolidCells(const CellLayout& layout, const Sides& sides, MemoryAccount& account);
 
-    /// What new solids change in the state.
+    /// Changes that new solids make to the state.
     struct Change {
         double coveredDensity = 0;    ///< lost because solids cover it, summed over cells
         glm::vec3 greatestSpeeds{0};  ///< of the solids' faces across x, y and z
     };
-    /// Replaces all solids. Faces of solids get their speeds, those of uncovered air keep them; both are written to
-    /// `cells`. Throws InputError if sizes do not fit, a velocity is not finite, or no fluid remains.
+    /// Replaces all solids. Faces of solids get their speeds, and faces of uncovered air keep them; both are written to
+    /// `cells`. Throws InputError if sizes do not match, a velocity is not finite, or no fluid remains.
     Change set(const SolidMask& mask, CellField& cells);
 
     /// For each padded cell, the conductance of a face between it and a fluid cell: 1 for fluid, 2 for air beyond an
@@ -35,17 +36,17 @@ class SolidCells {
     /// For each padded cell: faces between two cells of fluid, and cells of fluid.
     [[nodiscard]] const Moving* moving() const { return moving_.data(); }
 
-    /// Sets what lies just inside the solids to the mean of what moves beside it, so that samples near the surface do
-    /// not mix in the inside: at centres, and if the surface is frictionless on faces between two solid cells.
+    /// Sets the rim inside the solids to the mean of adjacent moving values, so that samples near the surface do not
+    /// mix in the inside: at centres, and on faces between two solid cells if the surface is frictionless.
     void extendInto(CellField& cells, bool slip) const;
-    /// Restores it: the solid's own speed on faces, nothing at centres.
+    /// Restores the rim: the solid's own speed on faces, 0 at centres.
     void restore(CellField& cells) const;
 
  private:
-    /// A number inside a solid, beside one that moves.
+    /// A value inside a solid next to one that moves.
     struct Rim {
         std::uint32_t at;
-        std::uint8_t lane;  ///< a velocity's, or `density` for all that lies at the centre
+        std::uint8_t lane;  ///< that of a velocity, or `density` for all quantities at the centre
         float solid;        ///< the solid's own speed
     };
     double cover(const SolidMask& mask, CellField& cells);
@@ -53,7 +54,7 @@ class SolidCells {
     void findMoving();
     void findRim(const CellField& cells);
 
-    /// Whether it is a row of the box, and holds no solid.
+    /// Whether it is a row of the box without solids.
     [[nodiscard]] bool isAllFluid(int j, int k) const {
         return j >= 0 && k >= 0 &&
                !rowHasSolid_[static_cast<std::size_t>(k) * static_cast<std::size_t>(layout_.ny) +

@@ -17,9 +17,9 @@ struct BodyMotion {
     glm::vec3 velocity{0};     ///< metres per second, at `centreCells`
     glm::vec3 turnPerCell{0};  ///< metres per second per cell of distance: angular velocity times spacing
     glm::vec3 centreCells{0};  ///< from the minimum corner of the box
-    bool byCell = false;       ///< it deforms: SolidMask::velocities hold instead
+    bool byCell = false;       ///< it deforms: SolidMask::velocities apply instead
 
-    /// At a place in cells from the minimum corner of the box.
+    /// The velocity at a place in cells from the minimum corner of the box.
     [[nodiscard]] glm::vec3 velocityAt(const glm::vec3& place) const {
         return velocity + glm::cross(turnPerCell, place - centreCells);
     }
@@ -29,9 +29,9 @@ struct BodyMotion {
 struct SolidMask {
     std::span<const std::uint8_t> body;       ///< 0: fluid; n: the n-th solid; empty: fluid everywhere
     std::span<const BodyMotion> motions;      ///< of the solids, in order; solids beyond the last are at rest
-    std::span<const glm::vec3> velocities{};  ///< of each cell that is in a solid that deforms; empty: there is none
+    std::span<const glm::vec3> velocities{};  ///< of each cell in a deforming solid; empty: there is none
 
-    /// Of the solid with this number, above 0, in a cell of it.
+    /// Velocity of the solid with this number, above 0, in one of its cells.
     [[nodiscard]] glm::vec3 velocityOf(std::uint8_t solid, std::size_t cellIndex, const glm::ivec3& cell) const {
         const std::size_t n = solid - std::size_t{1};
         if (n >= motions.size()) return glm::vec3(0);
@@ -39,7 +39,7 @@ struct SolidMask {
     }
 };
 
-/// Throws InputError if sizes do not fit, a velocity is not finite, or no fluid remains.
+/// Throws InputError if sizes do not match, a velocity is not finite, or no fluid remains.
 void check(const SolidMask& mask, const CellLayout& layout);
 
 /// The conductance of each padded cell if there are no solids (SolidCells::conductance).

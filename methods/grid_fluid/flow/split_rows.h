@@ -19,7 +19,7 @@ struct SplitLayout {
           row((half + 16) / 16 * 16),
           slab(row * (static_cast<std::size_t>(ny) + 2)) {}
 
-    /// First cell of a row, −1 ≤ j ≤ ny, −1 ≤ k ≤ nz. There is at least one place between two rows, for the ghosts.
+    /// First cell of a row, −1 ≤ j ≤ ny, −1 ≤ k ≤ nz. There is at least one entry between two rows, for the ghosts.
     [[nodiscard]] std::size_t at(int j, int k) const {
         return front + static_cast<std::size_t>(k + 1) * slab + static_cast<std::size_t>(j + 1) * row;
     }

@@ -1,5 +1,5 @@
-// Adds to the first guess what its correction and the corrections evened along each axis have in common: nothing of what
-// alternates from cell to cell. As flow::Advection does.
+// Adds corrections to the first guess, limited by the corrections smoothed along each axis, which filters out
+// grid-scale oscillation. Equals flow::Advection.
 layout(std430, binding = 1) restrict writeonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict writeonly buffer Carried { vec2 carried[]; };
 layout(std430, binding = 3) restrict readonly buffer GuessMoving { vec4 guessMoving[]; };
@@ -13,7 +13,8 @@ struct Correction {
     vec2 carried;
 };
 
-// Beside the box lies what lies within, on its far sides without that of their faces, which do not move.
+// Outside the box, corrections are those of the nearest cell, except that faces on the far sides, which do not move,
+// have none.
 Correction correctionAt(ivec3 c) {
     int cell = at(clamp(c, ivec3(0), cells - 1));
     vec3 within = vec3(lessThan(c, cells));

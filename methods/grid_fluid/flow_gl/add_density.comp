@@ -1,4 +1,4 @@
-// Adds density to the cells of a list, in which each is named once.
+// Adds density to a list of distinct cells.
 struct Added {
     int cell;
     float density;

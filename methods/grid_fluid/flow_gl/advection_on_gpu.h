@@ -1,6 +1,6 @@
 // Advects all quantities of the cells on the GPU, as flow::Advection does.
 //
-// The first guesses have their own field; the centres' velocities, and then the corrections, lie in the spare one.
+// The first guesses have their own field; the spare field stores first the centres' velocities, then the corrections.
 // Source: Stam1999, 2.2; Selle2008, Eq. 4 and 3.2. Threads: the OpenGL thread's.
 #pragma once
 
@@ -17,7 +17,7 @@ class AdvectionOnGpu {
  public:
     AdvectionOnGpu(gpu::Device& device, const flow::CellLayout& layout, flow::AdvectionRule rule);
 
-    /// Bytes of its largest buffer, and of all.
+    /// Bytes of its largest buffer, and of all buffers.
     static std::size_t largestBytes(const flow::CellLayout& layout, flow::AdvectionRule rule);
     static std::size_t allBytes(const flow::CellLayout& layout, flow::AdvectionRule rule);
 
@@ -25,7 +25,7 @@ class AdvectionOnGpu {
     /// must contain the maximum speeds. `ahead` is flow::AdvectionStep's.
     void advect(CellsOnGpu& cells, CellsOnGpu& spare, const CellsOnGpu& guess, const gpu::Buffer& kinds,
                 const StepReportOnGpu& report, float cellsPerSpeed, float ahead);
-    /// Moves what is kept from step to step by whole cells; new cells had the wind. `spare` is temporary.
+    /// Moves the data kept between steps by whole cells; new cells get the wind's velocity. `spare` is temporary.
     void scroll(const glm::ivec3& by, const glm::vec3& wind, CellsOnGpu& spare);
     [[nodiscard]] std::size_t bytes() const { return halfway_.bytes() + (last_ ? last_->velocities.bytes() : 0); }
 

@@ -20,7 +20,7 @@ glm::ivec3 turned(const glm::ivec3& each, int axis) {
     return {each[axis], each[(axis + 1) % 3], each[(axis + 2) % 3]};
 }
 
-/// As many crossings as there can be: rays within the bounds of each triangle.
+/// The maximum number of crossings: the rays within the bounds of each triangle.
 std::size_t mostCrossings(std::span<const glm::dvec3> places, std::span<const std::uint32_t> indices, int axis,
                           const glm::ivec3& size) {
     std::size_t most = 0;

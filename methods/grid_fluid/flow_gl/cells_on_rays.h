@@ -1,7 +1,7 @@
 // Fills the cells of a grid that are inside closed meshes, by OpenGL: the same cells as MeshCells, by the same rays.
 //
-// A pass for each triangle counts the rays that it crosses, another stores where, and a pass for each ray sorts its
-// crossings and fills its cells. Where a GPU's double precision rounds as the standard says, no cell differs.
+// A pass over the triangles counts the rays that each crosses, a second one stores the crossings, and a pass over the
+// rays sorts these and fills the cells. If the GPU's double precision rounds as the standard requires, no cell differs.
 // Units: cells. Owns its buffers. Threads: the OpenGL thread's.
 // Source: Crane2007, 30.2.4. Departs: rays and their crossings instead of slices and the stencil buffer.
 #pragma once
@@ -18,9 +18,9 @@ class CellsOnRays {
  public:
     CellsOnRays(gpu::Device& device, glm::ivec3 cells);
 
-    /// The number of each cell, x fastest, before the first mesh.
+    /// Sets the number of each cell, x fastest, before the first mesh.
     void begin(std::span<const std::uint8_t> bodies);
-    /// Sets the cells of a mesh to `body`, above 0; `places` of its vertices in cells.
+    /// Sets the cells of a mesh to `body`, above 0; `places`: positions of its vertices in cells.
     void add(std::span<const glm::dvec3> places, std::span<const std::uint32_t> indices, std::uint8_t body);
     /// Waits for the GPU.
     void read(std::span<std::uint8_t> bodies) const;

@@ -1,4 +1,4 @@
-// What is added to the speeds at each cell's centre: confinement, buoyancy and weight, as in flow::applyForces.
+// Computes the changes of speed at each cell's centre by confinement, buoyancy and weight, as in flow::applyForces.
 // Source: Fedkiw2001, Eq. 8 and 11.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict readonly buffer Carried { vec2 carried[]; };

@@ -1,11 +1,11 @@
-// The velocity at each cell's centre that paths follow: that of the state, with EXTRAPOLATED half-way through the
-// step (flow::CentreVelocities). Beyond the box it is that of the outermost cells.
+// The velocity at each cell's centre that paths follow: that of the state, or with EXTRAPOLATED that at the middle of
+// the step (flow::CentreVelocities). Beyond the box it is that of the outermost cells.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 5) restrict writeonly buffer Centres { vec4 centres[]; };
 #ifdef EXTRAPOLATED
 layout(std430, binding = 2) restrict readonly buffer Last { vec4 last[]; };
 layout(std430, binding = 7) restrict readonly buffer Report { uint maximum[]; };
-uniform float ahead;  // half of this step over the last
+uniform float ahead;  // half of this step, divided by the last step
 #endif
 
 void main() {

@@ -1,4 +1,4 @@
-// A coarse face conducts the sum of its finer faces, over a greater distance; see flow::PoissonLevel::buildFrom.
+// A coarse face conducts the sum of its finer faces, over a longer distance; see flow::PoissonLevel::buildFrom.
 #ifndef FINEST
 layout(std430, binding = 1) restrict readonly buffer Finer { vec4 finer[]; };
 #endif

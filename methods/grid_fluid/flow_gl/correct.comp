@@ -1,4 +1,4 @@
-// Half of the error of the first guess when it is advected back, within limits; 0 where there is none.
+// The correction: half of the error of the first guess when it is advected back, limited; 0 where there is none.
 // Source: Selle2008, Eq. 4 and 3.2. Departs: as flow::Advection does.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict readonly buffer Carried { vec2 carried[]; };
@@ -7,7 +7,7 @@ layout(std430, binding = 4) restrict readonly buffer GuessCarried { vec2 guessCa
 layout(std430, binding = 6) restrict writeonly buffer MovingCorrections { vec4 movingCorrections[]; };
 layout(std430, binding = 7) restrict writeonly buffer CarriedCorrections { vec2 carriedCorrections[]; };
 
-const float almost = PATH_TOLERANCE;  // cells by which a path may leave: along a wall, speeds across it are rounding errors
+const float almost = PATH_TOLERANCE;  // cells by which a path may leave, since speeds across a wall are rounding errors
 
 // LIMIT as flow::Limit: 0 clamp, 1 revert, 2 none.
 vec3 limited(vec3 value, vec3 first, vec3 low, vec3 high) {
@@ -21,7 +21,7 @@ vec3 limited(vec3 value, vec3 first, vec3 low, vec3 high) {
 #endif
 }
 
-// At a cell's centre, of the time whose velocity paths follow.
+// The velocity at a cell's centre, at the time whose velocity paths follow.
 vec3 speedOf(ivec3 c) {
     int cell = at(max(c, ivec3(0)));
 #ifdef EXTRAPOLATED
@@ -31,8 +31,8 @@ vec3 speedOf(ivec3 c) {
 #endif
 }
 
-// The first guess has no value beyond the outermost places that move, and is not used farther along z than the greatest speed.
-// Moves `place` to the end of its path, if that is allowed.
+// Moves `place` to the end of its path, limited to the region of the first guess: between the outermost places that
+// move, and no farther along z than the maximum speed. Returns whether the path stays within it.
 bool follow(ivec3 c, int kind, vec3 velocity, inout vec3 place) {
     float reach = halfway[at(c)].w;
     vec3 low = vec3(1), high = vec3(cells);

@@ -1,5 +1,5 @@
-// Finds the rays that cross a triangle, one thread each: counts them, or stores where they do (STORE).
-layout(std430, binding = 0) restrict readonly buffer Places { double places[]; };  // three a vertex, in cells
+// Finds the rays that cross a triangle, one thread per triangle: counts them, or stores the crossings (STORE).
+layout(std430, binding = 0) restrict readonly buffer Places { double places[]; };  // three per vertex, in cells
 layout(std430, binding = 1) restrict readonly buffer Indices { uint indices[]; };
 layout(std430, binding = 2) restrict buffer Counts { uint counts[]; };  // of each ray
 #ifdef STORE
@@ -12,7 +12,7 @@ dvec3 corner(int triangle, int number) {
     return dvec3(places[first + axis], places[first + (axis + 1) % 3], places[first + (axis + 2) % 3]);
 }
 
-// An edge is always evaluated from its lesser end, so that both of its triangles agree.
+// An edge is always evaluated from its smaller end, so that both of its triangles agree.
 bool isLeftOf(dvec2 a, dvec2 b, dvec2 point) {
     bool turned = b.x < a.x || (b.x == a.x && b.y < a.y);
     dvec2 from = turned ? b : a, to = turned ? a : b;

@@ -1,5 +1,5 @@
-// Where the rays along one axis through the centres of all cells cross a mesh, as in MeshCells: in the same arithmetic,
-// in double precision and without contraction, so that the cells are the same.
+// Crossings of a mesh by the rays along one axis through the centres of all cells, as in MeshCells: with the same
+// arithmetic, in double precision and without contraction, so that the cells are the same.
 //
 // Rays are numbered by the two axes that follow theirs, in cyclic order: j + size.y * k.
 layout(local_size_x = 64) in;
@@ -8,7 +8,7 @@ struct Crossing {
     float x;
     int inwards;  // 1 entering, -1 leaving
     uint triangle;
-    int depth;  // how often a ray is inside behind it, counted from the left
+    int depth;  // nesting depth behind the crossing, counted from the left
     float normal[3];
     float unused;
 };

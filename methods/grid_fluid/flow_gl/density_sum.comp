@@ -1,7 +1,7 @@
 // Sums densities over short columns of cells along z, one sum per group of threads, always in the same order.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict writeonly buffer Sums { double sums[]; };
-uniform int what;             // 0: all; 1: less what leaves through open sides in a step; 2: in solids
+uniform int what;             // 0: all; 1: minus outflow through open sides in a step; 2: in solids
 uniform float cellsPerSpeed;  // dt/h
 
 shared double columns[GROUP];

@@ -1,4 +1,4 @@
-// Adds the groups' sums and tracks the density that should be there.
+// Adds the groups' sums and tracks the expected density.
 layout(local_size_x = GROUP) in;
 layout(std430, binding = 2) restrict readonly buffer Sums { double sums[]; };
 layout(std430, binding = 3) restrict buffer Balance {

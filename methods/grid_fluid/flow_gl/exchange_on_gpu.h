@@ -1,4 +1,4 @@
-// Exchanges density between a fluid's box on the GPU and what lies around it, on the host.
+// Exchanges density between a fluid's box on the GPU and its surroundings on the host.
 //
 // Threads: the OpenGL thread's.
 #pragma once
@@ -16,11 +16,11 @@ class ExchangeOnGpu {
  public:
     ExchangeOnGpu(gpu::Device& device, const glm::ivec3& cells);
 
-    /// Notes, before a step, what leaves through each face of the open sides. `cellsPerSpeed` = Δt/h.
+    /// Records, before a step, the density that will leave through each face of the open sides. `cellsPerSpeed` = Δt/h.
     void noteLeaving(const CellsOnGpu& state, const gpu::Buffer& kinds, float cellsPerSpeed);
-    /// Replaces `leaving` by what was noted last. Waits for the GPU.
+    /// Replaces `leaving` by the last record. Waits for the GPU.
     void readLeaving(std::vector<flow::LeavingDensity>& leaving);
-    /// Adds density to cells, each named once.
+    /// Adds density to distinct cells.
     void add(const CellsOnGpu& state, std::span<const flow::AddedDensity> added);
     [[nodiscard]] std::size_t bytes() const { return faces_.bytes() + added_.bytes(); }
 

@@ -1,5 +1,5 @@
-// Sets what lies just inside the solids to the mean of what moves beside it, as flow::SolidCells::extendInto: at centres, and on
-// faces between two solid cells if solids are frictionless.
+// Sets the rim inside the solids to the mean of adjacent moving values, as flow::SolidCells::extendInto: at centres,
+// and on faces between two solid cells if solids are frictionless.
 layout(std430, binding = 1) restrict buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict buffer Carried { vec2 carried[]; };
 uniform int slip;
@@ -45,5 +45,5 @@ void main() {
     extendCentre(cell);
     if (slip == 0) return;
     for (int axis = 0; axis < 3; ++axis)
-        if (!isFluid(cell - stepAlong(axis))) extendFace(cell, axis);  // else it is the surface itself
+        if (!isFluid(cell - stepAlong(axis))) extendFace(cell, axis);  // otherwise it is the surface itself
 }

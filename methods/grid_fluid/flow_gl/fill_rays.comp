@@ -1,4 +1,4 @@
-// Fills the cells of a ray that lie inside the mesh, and those of thin walls, as MeshCells does; one thread a ray.
+// Fills the cells of a ray that are inside the mesh, and those of thin walls, as MeshCells does; one thread per ray.
 layout(std430, binding = 2) restrict readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 3) restrict readonly buffer Firsts { uint firsts[]; };
 layout(std430, binding = 4) restrict buffer Crossings { Crossing crossings[]; };

@@ -1,4 +1,4 @@
-// The same smoke step past a sphere with the CPU solver and with the GPU solver (on whatever device OpenGL uses).
+// Benchmarks a smoke step past a sphere with the CPU solver and the GPU solver (on the device that OpenGL uses).
 //
 // Spacing and time step are 1, as in fluid_bench.cpp. The benchmark waits for the GPU after each stage, so that
 // `advect_ms` and the others are the times of the stages. The column CPU is the sum over all threads, which allows

@@ -1,5 +1,5 @@
-// Copies one quantity of all cells, without ghosts, to an array, or to a 3D texture to be seen: nothing where it is below 0.
-// A cell's velocity is the mean of its two faces.
+// Copies one quantity of all cells, without ghosts, to an array, or to a 3D texture for display, where values below 0
+// become 0. A cell's velocity is the mean of its two faces.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict readonly buffer Carried { vec2 carried[]; };
 #ifdef TEXTURE

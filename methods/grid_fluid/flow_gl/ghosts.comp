@@ -1,5 +1,5 @@
 // Fills the ghosts as flow::fillGhosts does: one side of the box for each z of the grid of threads. The faces on the far sides,
-// which the ghosts there hold, stay.
+// which are stored in the ghosts there, do not change.
 layout(std430, binding = 1) restrict buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict buffer Carried { vec2 carried[]; };
 uniform int noSlip;
@@ -11,7 +11,7 @@ int sideOf(ivec3 c, int axis) {
     return c[axis] < 0 ? sides[2 * axis] : c[axis] >= cells[axis] ? sides[2 * axis + 1] : -1;
 }
 
-// The speed across `lane` beyond the box; on a far side's face it goes on along the side.
+// The speed across `lane` beyond the box; on the face of a far side it continues along the side.
 float speedBeyond(ivec3 c, int lane) {
     ivec3 from = clamp(c, ivec3(0), cells - 1);
     bool isFar = c[lane] == cells[lane];
@@ -30,7 +30,7 @@ float speedBeyond(ivec3 c, int lane) {
 void main() {
     ivec2 place = ivec2(gl_GlobalInvocationID.xy);
     int side = int(gl_GlobalInvocationID.z), axis = side / 2;
-    // Edges and corners belong to the last axis along which they lie outside.
+    // Edges and corners belong to the last axis along which they are outside.
     ivec3 c = axis == 0 ? ivec3(0, place) : axis == 1 ? ivec3(place.x - 1, 0, place.y) : ivec3(place - 1, 0);
     c[axis] = side % 2 == 0 ? -1 : cells[axis];
     ivec3 low = ivec3(-1, axis == 0 ? 0 : -1, axis == 2 ? -1 : 0);

@@ -25,11 +25,11 @@ const flow::FluidSettings& checked(const flow::FluidSettings& settings, const gp
                ", allowed: " + std::to_string(allowed);
     };
     if (bytes > maximum) throw InputError(text("in one buffer of OpenGL", bytes, maximum));
-    // Per cell three fields, its kind, and the pressure: 16 bytes and a quarter more for the coarser levels.
+    // Per cell: three fields, its kind, and the pressure, which takes 16 bytes plus a quarter for the coarser levels.
     const std::size_t all = padded * (3 * (CellsOnGpu::bytesMoving + CellsOnGpu::bytesCarried) + 4 + 20) +
                             AdvectionOnGpu::allBytes(layout, settings.advection);
     if (const auto free = device.driverFreeBytes(); free && static_cast<std::int64_t>(all) > *free)
-        throw InputError(text("in all", all, static_cast<std::size_t>(*free)));
+        throw InputError(text("in total", all, static_cast<std::size_t>(*free)));
     return settings;
 }
 
@@ -78,7 +78,7 @@ flow::StepReport GlFluidSolver::step(double stepSeconds, std::span<const flow::F
     flow::checkStep(stepSeconds);
     const auto seconds = static_cast<float>(stepSeconds);
     const auto spacing = static_cast<float>(settings_.box.spacingMetres);
-    // What solids have covered since the last step still counts, as on the CPU.
+    // Density that solids have covered since the last step still counts, as on the CPU.
     const bool solidsChanged = std::exchange(solidsChanged_, false);
     if (!speedsKnown_) report_.restartMaximum(settings_.windMetresPerSecond);
     if (!speedsKnown_ || solidsChanged) raiseMaximum();

@@ -73,7 +73,7 @@ class GlFluidSolver final : public flow::Solver {
     GhostsOnGpu ghosts_;
     AdvectionOnGpu advection_;
     std::optional<DensityOnGpu> density_;
-    std::optional<ExchangeOnGpu> exchange_;  ///< of density with what lies around the box
+    std::optional<ExchangeOnGpu> exchange_;  ///< exchange of density with the surroundings of the box
     std::vector<flow::LeavingDensity> leaving_;
     SourcesOnGpu sources_;
     ForcesOnGpu forces_;
@@ -84,7 +84,7 @@ class GlFluidSolver final : public flow::Solver {
          densityAdded_ = false;
     std::int64_t steps_ = 0;
     double lastStepSeconds_ = 0;
-    float advectedSeconds_ = 0;  ///< the last step that the flow has taken, 0 if the state was set since
+    float advectedSeconds_ = 0;  ///< duration of the flow's last step; 0 if the state was set since
 };
 
 }  // namespace dustbench::grid_fluid::flow_gl

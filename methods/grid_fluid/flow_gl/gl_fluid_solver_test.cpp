@@ -1,4 +1,4 @@
-// The GPU solver, compared with the CPU solver and with itself. Over 400 lines: all tests share the worlds that both
+// Compares the GPU solver with the CPU solver and with itself. Over 400 lines: all tests share the worlds that both
 // solve.
 #include "methods/grid_fluid/flow_gl/gl_fluid_solver.h"
 
@@ -30,7 +30,7 @@ struct Flow {
         settings.box = {cells, 0.1, {0, 0, 0}};
         settings.forces.buoyancyPerKelvin = 0.5f;
         settings.forces.weightPerDensity = 0.1f;
-        settings.divergencePerStep = 3e-6f;  // tight: what is left of the divergence differs between the solvers
+        settings.divergencePerStep = 3e-6f;  // tight, because the remaining divergence differs between the solvers
         flow::FluidSource source;
         source.centreMetres = {0.71, 0.33, 0.92};
         source.radiusMetres = 0.2;
@@ -256,7 +256,7 @@ TEST(GlFluidSolver, SweepsAsTheCpuDoes) {
 }
 
 TEST(GlFluidSolver, PathsReachAsFarAsASolidIsFastThatTheAirIsNot) {
-    // The same step with the greatest speeds searched in the whole state.
+    // The same step, with the maximum speeds searched in the whole state.
     const auto stateAfter = [](bool searched) {
         Flow flow;
         MemoryLedger ledger;
@@ -324,7 +324,7 @@ TEST(GlFluidSolver, GivesAndTakesDensityAsTheCpuDoes) {
     cpu.gather(flow::density, ofCpu);
     gl.gather(flow::density, ofGl);
     EXPECT_EQ(ofCpu, ofGl);
-    // What solids cover is given to the rest, also where the same solids cover what was added.
+    // Density covered by solids is given to the rest, also if the same solids cover density that was added.
     const flow::SolidMask mask = flow.ball(9.1f);
     both([&](flow::Solver& solver) { solver.setSolids(mask); });
     both([&](flow::Solver& solver) { solver.addDensity(std::vector<flow::AddedDensity>{{{9, 9, 8}, 40}}); });

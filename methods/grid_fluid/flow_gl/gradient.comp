@@ -1,4 +1,4 @@
-// u -= h grad q on all faces beside fluid, as in flow::subtractGradient.
+// u -= h grad q on all faces of fluid cells, as in flow::subtractGradient.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict writeonly buffer MovingThen { vec4 movingThen[]; };
 layout(std430, binding = 5) restrict readonly buffer Pressure { float pressure[]; };

@@ -1,5 +1,5 @@
-// The velocity half-way along the path of each cell, u(x - dt/2 u(x)), and how many cells a path is followed along z.
-// Source: Stam1999, 2.2.
+// The velocity half-way along the path of each cell, u(x - dt/2 u(x)), and the maximum length of a path along z in
+// cells. Source: Stam1999, 2.2.
 layout(std430, binding = 5) restrict readonly buffer Centres { vec4 centres[]; };
 layout(std430, binding = 6) restrict writeonly buffer Halfway { vec4 halfway[]; };
 layout(std430, binding = 7) restrict readonly buffer Report { uint maximum[]; };
@@ -13,6 +13,6 @@ void main() {
     float reach = min(ceil(uintBitsToFloat(maximum[2]) * cellsPerSpeed), float(cells.z)) + 1.0;
     halfway[at(c)] = vec4(SAMPLED(centres, .xyz, cornersAround(middle)), reach);
 #ifdef EXTRAPOLATED
-    halfway[at(c) + paddedCells()] = centres[at(inner)];  // which the corrections replace
+    halfway[at(c) + paddedCells()] = centres[at(inner)];  // the corrections will overwrite them
 #endif
 }

@@ -1,5 +1,5 @@
-// Notes what leaves the box in a step through each face of the two sides across one axis: how far it gets in cells, and
-// its density summed over cells.
+// Records the density that leaves the box in a step through each face of the two sides across one axis: the distance
+// that it travels in cells, and the density summed over cells.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict writeonly buffer Faces { vec2 faces[]; };
 uniform int axis;

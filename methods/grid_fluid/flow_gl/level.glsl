@@ -1,5 +1,5 @@
 // Memory layout of a level of the pressure's hierarchy: red and black cells are separate, as on a chess board, so that
-// a sweep over one colour reads whole lines of memory. Rows have a ghost at either end; cell i of row (j, k) has colour
+// a sweep over one colour reads whole cache lines. Rows have a ghost at either end; cell i of row (j, k) has colour
 // (i + j + k) mod 2.
 int placeIn(ivec3 c, ivec3 size) {
     int row = (size.x + 3) / 2, slab = row * (size.y + 2);
@@ -10,8 +10,8 @@ int place(ivec3 c) {
     return placeIn(c, cells);
 }
 
-// Index of a cell, and that of the cell with the same number in the other colour (`twin`), to which all its neighbours
-// belong: along x they are at `twin - before` and one behind, along y a row on, along z a slab on.
+// Index of a cell, and that of the cell with the same number in the other colour (`twin`), which contains all of its
+// neighbours: along x they are at `twin - before` and the next index, along y a row away, along z a slab away.
 struct Star {
     int own, twin, before, row, slab;
 };

@@ -1,4 +1,4 @@
-// The maximum magnitude of each quantity of the cells, as bits: they order like the values, and NaN is above all.
+// The maximum magnitude of each quantity of the cells, as bits, which order like the values; NaN is above all others.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict readonly buffer Carried { vec2 carried[]; };
 layout(std430, binding = 7) restrict buffer Report { uint maximum[]; };

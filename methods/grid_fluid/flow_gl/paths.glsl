@@ -1,5 +1,6 @@
-// Where the paths of a cell begin: those of its faces across x, y and z (0 to 2), and of its centre (3).
-// Velocities half-way along the paths of all cells, then, with EXTRAPOLATED, those at all centres half-way through the step.
+// The departure points of a cell's paths: those of its faces across x, y and z (0 to 2), and of its centre (3).
+// Velocities half-way along the paths of all cells, then, with EXTRAPOLATED, those at all centres at the middle of the
+// step.
 layout(std430, binding = 5) restrict readonly buffer Halfway { vec4 halfway[]; };
 uniform float cellsPerSpeed;
 

@@ -1,4 +1,4 @@
-// Gives each ray a place for its crossings, one thread each, and sets their number back to 0.
+// Assigns each ray a range for its crossings, one thread per ray, and resets their number to 0.
 layout(std430, binding = 2) restrict buffer Counts { uint counts[]; };
 layout(std430, binding = 3) restrict writeonly buffer Firsts { uint firsts[]; };
 layout(std430, binding = 5) restrict buffer Total { uint total; };

@@ -1,4 +1,4 @@
-// The first guess: each quantity where the path of its own place begins. What does not move stays.
+// The first guess: each quantity at the departure point of its path. Quantities that do not move are unchanged.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict readonly buffer Carried { vec2 carried[]; };
 layout(std430, binding = 3) restrict writeonly buffer GuessMoving { vec4 guessMoving[]; };

@@ -34,7 +34,7 @@ class PressureOnGpu {
 
     [[nodiscard]] const gpu::Buffer& rightSide() const { return levels_.front().rightSide; }
     [[nodiscard]] const gpu::Buffer& pressure() const { return levels_.front().pressure; }
-    /// Of all cells, x fastest, without ghosts (waits for the GPU).
+    /// The pressure of all cells, x fastest, without ghosts (waits for the GPU).
     [[nodiscard]] std::vector<float> readPressure() const;
     [[nodiscard]] std::size_t bytes() const;
 

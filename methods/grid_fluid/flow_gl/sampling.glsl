@@ -1,5 +1,5 @@
-// Trilinear sampling in single precision. Positions count cells from the first ghost's own place, so that a quantity of
-// cell c lies at c + 1, at the cell's centre or on its face.
+// Trilinear sampling in single precision. Positions count cells from the first ghost, so that a quantity of cell c is
+// at c + 1, at the cell's centre or on its face.
 struct Corners {
     int low;
     vec3 share;  // fraction of the way to the next cell

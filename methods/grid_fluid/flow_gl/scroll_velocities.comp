@@ -1,4 +1,4 @@
-// Moves the velocities of the last step by whole cells; new cells had the wind.
+// Moves the velocities of the last step by whole cells; new cells get the wind's velocity.
 layout(std430, binding = 1) restrict readonly buffer Last { vec4 last[]; };
 layout(std430, binding = 2) restrict writeonly buffer LastThen { vec4 lastThen[]; };
 uniform ivec3 by;

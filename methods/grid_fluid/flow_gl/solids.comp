@@ -1,12 +1,12 @@
-// Sets the faces of solids to their speeds, and all that lies at the centre of a solid cell to 0. A face between two solids
-// belongs to the one ahead of it.
+// Sets the faces of solids to their speeds, and all quantities at the centre of a solid cell to 0. A face between two
+// solids belongs to the one ahead of it.
 layout(std430, binding = 1) restrict buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict buffer Carried { vec2 carried[]; };
 struct Motion {
-    vec4 velocity, turnPerCell, centreCells;  // velocity.w above 0: the cells have velocities of their own
+    vec4 velocity, turnPerCell, centreCells;  // velocity.w above 0: each cell has its own velocity
 };
 layout(std430, binding = 3) restrict readonly buffer Motions { Motion motions[]; };
-layout(std430, binding = 4) restrict readonly buffer Velocities { float velocities[]; };  // three a cell, no ghosts
+layout(std430, binding = 4) restrict readonly buffer Velocities { float velocities[]; };  // three per cell, no ghosts
 uniform int motionCount;
 
 int bodyAt(ivec3 c) {
@@ -17,7 +17,7 @@ float speedOf(int body, ivec3 c, int axis) {
     if (body > motionCount) return 0.0;
     Motion motion = motions[body - 1];
     if (motion.velocity.w > 0.0) return velocities[3 * (c.x + cells.x * (c.y + cells.y * c.z)) + axis];
-    // Along its own axis a rigid body has the same speed everywhere, so the cell's centre does for its face.
+    // A rigid body's speed along an axis is constant along that axis, so the cell's centre can be used for its face.
     return (motion.velocity.xyz + cross(motion.turnPerCell.xyz, vec3(c) + 0.5 - motion.centreCells.xyz))[axis];
 }
 

@@ -19,12 +19,12 @@ class SolidsOnGpu {
  public:
     SolidsOnGpu(gpu::Device& device, const flow::CellLayout& layout, const flow::Sides& sides, MemoryAccount& account);
 
-    /// Replaces all solids, without updating the state. False if nothing changes because there are none, as before.
+    /// Replaces all solids, without updating the state. Returns false if there are none, as before.
     /// Throws InputError as flow::check does.
     [[nodiscard]] bool set(const flow::SolidMask& mask);
-    /// Gives the faces of solids their speeds, and their cells nothing else.
+    /// Gives the faces of solids their speeds, and empties their cells.
     void fill(const CellsOnGpu& cells) const;
-    /// Sets what lies just inside the solids to the mean of what moves beside it; includes the velocity if `slip`.
+    /// Sets the rim inside the solids to the mean of adjacent moving values; includes the velocity if `slip`.
     void extendInto(const CellsOnGpu& cells, bool slip);
 
     [[nodiscard]] bool any() const { return any_; }

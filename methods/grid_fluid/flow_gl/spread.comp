@@ -1,5 +1,5 @@
-// Spreads the force of confinement by (1, 2, 1)/4 along each axis, as flow::applyForces does, and adds what
-// points upwards. Beyond the box it is the force of the outermost cells.
+// Smooths the confinement force by (1, 2, 1)/4 along each axis, as flow::applyForces does, and adds the vertical
+// forces. Beyond the box it is the force of the outermost cells.
 layout(std430, binding = 6) restrict readonly buffer Force { vec4 force[]; };
 layout(std430, binding = 5) restrict writeonly buffer Spread { vec4 spread[]; };
 

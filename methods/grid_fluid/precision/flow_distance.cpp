@@ -30,7 +30,7 @@ void forEach(const glm::ivec3& first, const glm::ivec3& end, const Take& take) {
             for (at.x = first.x; at.x < end.x; ++at.x) take(at);
 }
 
-/// ω of an edge is the circulation of the four faces around it; without those on the box's sides.
+/// ω of an edge is the circulation of the four faces around it. Edges on the box's sides are omitted.
 double enstrophyOf(const StaggeredFlow& flow) {
     double sum = 0;
     const auto speed = [&](int axis, const glm::ivec3& at) {

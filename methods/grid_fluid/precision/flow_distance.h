@@ -1,7 +1,7 @@
-// How far a flow is from a reference on the same cells, and what of a flow is the same for every solver.
+// The distance of a flow from a reference on the same cells, and invariants of a flow.
 //
-// A flow on a finer grid is averaged first: the density over cells, the speeds over faces, so that what flows through
-// the coarse faces stays. Units: SI. Threads: pure.
+// A flow on a finer grid is averaged first, the density over cells and the speeds over faces, which preserves the flow
+// through the coarse faces. Units: SI. Threads: pure.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace dustbench::grid_fluid::precision {
 
 struct FlowDistance {
     double density = 0;    ///< ‖a − b‖ / ‖b‖ over cells
-    double velocity = 0;   ///< the same over faces
+    double velocity = 0;   ///< the same for speeds over faces
     double enstrophy = 0;  ///< |ln(Σω²(a) / Σω²(b))|, ω of the edges between the cells
     /// Root mean square of ln(E(a) / E(b)) over the wave numbers 1, 2, … of the velocity's cosine series, in half waves
     /// per width along z, up to the finest that the cells hold.
@@ -24,7 +24,7 @@ struct FlowDistance {
 };
 [[nodiscard]] FlowDistance distanceOf(const StaggeredFlow& flow, const StaggeredFlow& reference);
 
-/// What is conserved or bounded.
+/// Conserved or bounded quantities.
 struct FlowSums {
     double massM3 = 0;             ///< Σ density·volume
     double energyM5PerS2 = 0;      ///< Σ u²/2·volume over faces

@@ -15,7 +15,7 @@ namespace {
 constexpr double widthMetres = 3.2;
 constexpr float windMetresPerSecond = 6;
 
-/// What a problem has on any grid.
+/// The properties of a problem that are the same on every grid.
 struct Definition {
     glm::ivec3 eighths;  ///< of the width, along each axis
     double seconds;
@@ -54,7 +54,7 @@ void addPlume(GridProblem& problem) {
     source.densityPerSecond = 2;
     source.kelvinPerSecond = 80;
     problem.sources = {source};
-    // Not above the source, so that the flow is not symmetric.
+    // Not directly above the source, so that the flow is not symmetric.
     problem.solids = ballIn(problem.settings.box, {1.7, 1.9, 1.65}, 0.45);
     problem.settings.forces.buoyancyPerKelvin = 0.1f;
 }
@@ -91,7 +91,7 @@ void giveSolids(flow::FluidSolver& solver, const GridProblem& problem) {
     solver.setSolids({problem.solids, {}});
 }
 
-/// Makes what a problem begins with free of divergence, by a step so short that nothing else changes.
+/// Makes the initial flow of a problem divergence-free, by a step so short that nothing else changes.
 void project(GridProblem& problem) {
     constexpr double momentSeconds = 1e-7, share = 1e-2;
     flow::FluidSettings settings = problem.settings;

@@ -1,12 +1,12 @@
-// Three problems on which solvers of flows are compared by error and time (reports/guide/work-precision.md): all of
-// their numbers are here and in grid_problem.cpp.
+// Three problems on which fluid solvers are compared by error and time (reports/guide/work-precision.md). All of their
+// numbers are here and in grid_problem.cpp.
 //
 //     plume   hot smoke rises past a ball in a closed box, 1.92 s
 //     ring    a vortex ring that carries smoke meets the wall of a closed box, 1.2 s
-//     car     wind parts around the car in a tunnel with walls, smoke before its nose, 0.5 s; air enters and leaves
-//             at the wind's speed, so that no open side has to be alike in two solvers
+//     car     wind flows around the car in a tunnel with walls, smoke in front of its nose, 0.5 s; air enters and
+//             leaves at the wind's speed, so that results do not depend on a solver's open sides
 //
-// A problem on a grid has a step in proportion to its cells. What it begins with is free of divergence on that grid.
+// The step of a problem is proportional to the cell size of its grid. The initial flow is divergence-free on that grid.
 // Units: SI. Frame: the box's minimum corner is the origin.
 #pragma once
 
@@ -42,16 +42,16 @@ struct GridProblem {
 
 /// Throws InputError unless it is a multiple of 8 from 8 to 256.
 void checkCells(int cellsAcross);
-/// Throws InputError as checkCells does. `car` is asked for the car alone.
+/// Throws InputError as checkCells does. `car` is called only for the problem `car`.
 [[nodiscard]] GridProblem problemOn(ProblemKind kind, int cellsAcross, const GridProblem::CarCells& car);
 
-/// By how much a source of strength 1 changes each cell, x fastest; 0 in solids.
+/// The change that a source of strength 1 makes to each cell, x fastest; 0 in solids.
 [[nodiscard]] std::vector<float> strengthsOf(const flow::FluidSource& source, const GridProblem& problem);
 
-/// The flow at the end, and the greatest |∇·u|·Δt and CFL number of all steps.
+/// The flow at the end, and the maximum |∇·u|·Δt and CFL number of all steps.
 struct SolvedProblem {
     StaggeredFlow end;
-    double computingSeconds = 0;  ///< of the steps, by the wall clock
+    double computingSeconds = 0;  ///< wall-clock time of the steps
     float divergencePerStep = 0, cellsPerStep = 0;
 };
 [[nodiscard]] SolvedProblem solve(const GridProblem& problem, flow::AdvectionRule rule);

@@ -27,7 +27,7 @@ constexpr std::string_view pointColumns =
     "enstrophy_error,spectrum_error\n";
 
 [[noreturn]] void cannotWrite(const fs::path& file) {
-    throw InputError(file.string() + ": got a file that cannot be written, allowed: a place with room");
+    throw InputError(file.string() + ": cannot be written; check the folder and its free space");
 }
 
 void writeText(const fs::path& file, std::string_view text, std::ios::openmode mode = std::ios::out) {
@@ -36,7 +36,7 @@ void writeText(const fs::path& file, std::string_view text, std::ios::openmode m
     if (!to.flush()) cannotWrite(file);
 }
 
-/// Of one solver and scheme on one grid.
+/// The flow of one solver and scheme on one grid.
 struct Run {
     std::string problem;
     int cells = 0;
@@ -46,7 +46,7 @@ struct Run {
     [[nodiscard]] std::string key() const { return fmt::format("{},{},{},{}", problem, cells, solver, scheme); }
 };
 
-/// What problem.toml says of a grid.
+/// The grid as described in problem.toml.
 struct Grid {
     double spacingMetres = 0, stepSeconds = 0, seconds = 0;
     std::vector<std::uint8_t> solids;
@@ -64,7 +64,7 @@ Grid gridOf(const fs::path& place) {
     return grid;
 }
 
-/// All flows of a folder but those that problems begin with, in order.
+/// All flows of a folder except the initial ones, sorted.
 std::vector<Run> runsIn(const fs::path& folder) {
     std::vector<Run> runs;
     for (const fs::directory_entry& place : fs::directory_iterator(folder)) {
@@ -117,7 +117,7 @@ StaggeredFlow flowOn(const Run& run, int coarseCells) {
     StaggeredFlow flow = readFlow(run.file);
     const int refinement = run.cells / coarseCells;
     if (refinement * coarseCells != run.cells || flow.cells % refinement != glm::ivec3(0))
-        throw InputError(fmt::format("{}: got {} cells across, allowed: a multiple of those of the coarsest grid, {}",
+        throw InputError(fmt::format("{}: got {} cells across, allowed: a multiple of the coarsest grid's {}",
                                      run.file.string(), run.cells, coarseCells));
     return refinement == 1 ? flow : averaged(flow, refinement);
 }

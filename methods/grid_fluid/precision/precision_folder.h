@@ -1,15 +1,15 @@
-// The folder of a comparison by error and time: set-ups for other solvers, the flows of all of them, their times, and
-// the table of points made of these.
+// The folder of a comparison by error and time: set-ups for other solvers, the flows of all solvers, their times, and
+// the resulting table of points.
 //
 //     times.csv                  problem,cells,solver,scheme,computing_ms: a row for each time a problem was solved
 //     points.csv                 a row for each flow and reference (pointColumns)
 //     PROBLEM_CELLS/
 //       problem.toml             the numbers of the problem
 //       begin.flow               the flow at the start (staggered_flow.h)
-//       solids.f32, source.f32   32-bit floats, x fastest: 1 in a solid; what a source of strength 1 adds
+//       solids.f32, source.f32   32-bit floats, x fastest: 1 in a solid; the amount that a source of strength 1 adds
 //       SOLVER-SCHEME.flow       the flow at the end
 //
-// Other solvers add flows and rows of times.csv. Everything throws InputError with the file.
+// Other solvers add flows and rows of times.csv. All functions throw InputError with the file.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@
 
 namespace dustbench::grid_fluid::precision {
 
-/// `dustbench`, and the words of our schemes.
+/// The name of our solver.
 inline constexpr std::string_view ownSolver = "dustbench";
 
 class PrecisionFolder {
@@ -33,8 +33,8 @@ class PrecisionFolder {
     [[nodiscard]] bool hasFlow(std::string_view problem, int cells, std::string_view scheme) const;
     void addRun(std::string_view problem, int cells, std::string_view scheme, const SolvedProblem& solved) const;
 
-    /// Compares every flow with the finest of the same problem by each solver, if they have at least `referenceCells`,
-    /// on the cells of the coarsest grid, and writes points.csv. Returns the number of its rows.
+    /// Writes points.csv and returns the number of its rows. Compares every flow of a problem with each solver's finest
+    /// flow, if that has at least `referenceCells` cells across, on the cells of the coarsest grid.
     std::size_t writePoints(int referenceCells) const;
 
  private:

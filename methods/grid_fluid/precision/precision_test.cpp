@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A block where a car would stand.
+/// A block in place of a car.
 std::vector<std::uint8_t> blockIn(const flow::FluidBox& box) {
     std::vector<std::uint8_t> inside;
     for (int k = 0; k < box.cells.z; ++k)
@@ -114,7 +114,7 @@ TEST(FlowDistance, EqualsClosedForms) {
     StaggeredFlow half = one;
     for (float& speed : half.speeds[0]) speed /= 2;
     for (float& density : half.density) density *= 1.25f;
-    // Rounding alone is left in the other wave numbers.
+    // The other wave numbers contain only rounding errors.
     const FlowDistance apart = distanceOf(half, one);
     EXPECT_NEAR(apart.velocity, 0.5, 1e-6);
     EXPECT_NEAR(apart.density, 0.25, 1e-6);
@@ -202,7 +202,7 @@ TEST_F(Folder, ComparesFlowsOfOtherSolversWithBothReferences) {
     }
     std::ofstream(place_ / "times.csv", std::ios::app)
         << "ring,8,other,any,30\nring,8,other,any,12\nring,8,other,any,18\n";
-    // Two flows with two references, and each reference with the other.
+    // Two flows against two references, and each reference against the other.
     EXPECT_EQ(folder.writePoints(8), 6u) << "only the finest flow of each solver is a reference";
     EXPECT_EQ(folder.writePoints(16), 6u);
     const files::CsvTable points = files::CsvTable::parseFile(place_ / "points.csv");

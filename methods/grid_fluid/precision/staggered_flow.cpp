@@ -54,7 +54,7 @@ template <typename Write>
 void writeFile(const std::filesystem::path& file, const Write& write) {
     std::ofstream to(file, std::ios::binary);
     write(to);
-    if (!to.flush()) fail(file, "a file that cannot be written", "a place with room");
+    if (!to.flush()) throw InputError(file.string() + ": cannot be written; check the folder and its free space");
 }
 
 }  // namespace
@@ -104,13 +104,13 @@ StaggeredFlow readFlow(const std::filesystem::path& file) {
     const auto isAllowed = [](int count) { return count >= 1 && count <= maximumCells; };
     if (!from || !words || word != "dustbench-flow" || version != 1 || !isAllowed(cells.x) || !isAllowed(cells.y) ||
         !isAllowed(cells.z))
-        fail(file, "a file without this head", "'dustbench-flow 1 NX NY NZ', up to 1024 cells along each axis");
+        fail(file, "another first line", "'dustbench-flow 1 NX NY NZ', up to 1024 cells along each axis");
     if (std::filesystem::file_size(file) != static_cast<std::uintmax_t>(from.gcount()) + bytesOf(cells))
-        fail(file, "another number of values", "those of all cells and faces");
+        fail(file, "another number of values", "one for each cell and face");
     StaggeredFlow flow(cells);
     const auto read = [&](std::vector<float>& values) {
         from.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(float)));
-        if (!from) fail(file, "a file that cannot be read to its end", "a whole one");
+        if (!from) throw InputError(file.string() + ": cannot be read to its end");
         if (!std::ranges::all_of(values, [](float value) { return std::isfinite(value); }))
             fail(file, "a value that is not finite", "finite numbers");
     };

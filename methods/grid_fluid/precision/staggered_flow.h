@@ -1,4 +1,4 @@
-// A flow as solvers with speeds on faces store it, and its file, so that flows of any solver can be compared.
+// A flow with speeds on faces, and its file format, so that flows of any solver can be compared.
 //
 // File: the line `dustbench-flow 1 NX NY NZ`, then 32-bit floats, little-endian, x fastest: the density of NX·NY·NZ
 // cells, then the speeds along x of (NX+1)·NY·NZ faces, along y of NX·(NY+1)·NZ and along z of NX·NY·(NZ+1).
@@ -27,7 +27,7 @@ struct StaggeredFlow {
         return count;
     }
     [[nodiscard]] std::size_t cell(int i, int j, int k) const { return index(cells, i, j, k); }
-    /// The face towards −axis of a cell; behind the last cell that towards +axis.
+    /// The face of a cell towards −axis; for the index after the last cell, the last cell's face towards +axis.
     [[nodiscard]] std::size_t face(int axis, int i, int j, int k) const { return index(faces(axis), i, j, k); }
 
     glm::ivec3 cells{0};
@@ -42,17 +42,17 @@ struct StaggeredFlow {
     }
 };
 
-/// What a solver stores.
+/// Copies the flow that a solver stores.
 [[nodiscard]] StaggeredFlow storedBy(const flow::FluidSolver& solver);
 /// Replaces a solver's speeds and density; its solids must be set already.
 void giveTo(flow::FluidSolver& solver, const StaggeredFlow& flow);
 
 /// Throws InputError with the file.
 void writeFlow(const std::filesystem::path& file, const StaggeredFlow& flow);
-/// Throws InputError with the file if it is none, has over 1 GB, is not as long as its head says, or holds a number
-/// that is not finite; nothing is allocated before its length is known to be right.
+/// Throws InputError with the file if it is not a flow, is larger than 1 GB, does not have the length given by its
+/// first line, or contains a value that is not finite. Checks the length before it allocates memory.
 [[nodiscard]] StaggeredFlow readFlow(const std::filesystem::path& file);
-/// 32-bit floats alone.
+/// Writes 32-bit floats without a first line.
 void writeFloats(const std::filesystem::path& file, std::span<const float> values);
 
 }  // namespace dustbench::grid_fluid::precision

@@ -53,7 +53,7 @@ void addRing(const VortexRing& ring, const flow::FluidBox& box, StaggeredFlow& f
         middle[axis] += 0.5;
         return potential.at(box.originMetres + middle * h)[axis];
     };
-    // Of the edges along y and z from each corner; none along x, where the potential is 0.
+    // The potential of the edges along y and z from each corner; along x it is 0.
     const auto index = [&](const glm::ivec3& corner) {
         return (static_cast<std::size_t>(corner.z) * static_cast<std::size_t>(corners.y) +
                 static_cast<std::size_t>(corner.y)) *

@@ -1,7 +1,7 @@
-// The flow around a vortex ring, for problems that begin with one.
+// The flow around a vortex ring, as an initial flow.
 //
 // Its vector potential is that of a thin ring whose kernel is softened by the core's radius; the speed of a face is the
-// circulation of the potential around it, so the flow is free of divergence but for rounding.
+// circulation of the potential around it, so the flow is divergence-free except for rounding.
 // Units: m, m/s, m²/s. Threads: rows in blocks. Source: Rosenhead1930 (the softened kernel).
 #pragma once
 
@@ -17,11 +17,11 @@ struct VortexRing {
     double coreMetres = 0.1;
     double circulationM2PerSecond = 1;
 
-    /// To the middle of the core.
+    /// Radius to the centre of the core.
     [[nodiscard]] double distanceMetres(const glm::dvec3& place) const;
 };
 
-/// Sets the speeds of all faces, without regard to walls.
+/// Sets the speeds of all faces and ignores walls.
 void addRing(const VortexRing& ring, const flow::FluidBox& box, StaggeredFlow& flow);
 
 }  // namespace dustbench::grid_fluid::precision

@@ -50,7 +50,7 @@ void DustTrail::addTo(const glm::ivec3& cell, double amountM3) {
     const std::array place = tileOf(cell);
     Tile& tile = tiles_.try_emplace(place, account_).first->second;
     const double cellM3 = std::pow(settings_.spacingMetres, 3);
-    // Where little is left of the old, new dust over `share` would leave the range of floats.
+    // If little of the old dust is left, new dust divided by `share` would exceed the range of floats.
     if (tile.share < 1e-6) {
         for (float& density : tile.density) density *= static_cast<float>(tile.share);
         tile.share = 1;
@@ -62,7 +62,7 @@ void DustTrail::addTo(const glm::ivec3& cell, double amountM3) {
 
 void DustTrail::takeEntered(const Cuboid& box,
                             const std::function<void(const glm::dvec3& middle, double amountM3)>& taker) {
-    // Middles from the box's minimum on and before its maximum; the tolerance is for lattices that coincide.
+    // Centres in [minimum, maximum) of the box; the tolerance is for lattices that coincide.
     const auto firstMiddle = [&](const glm::dvec3& place) {
         return glm::ivec3(glm::ceil(inCells(place) - 0.5 - 1e-6));
     };

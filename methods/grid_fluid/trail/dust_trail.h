@@ -1,9 +1,9 @@
 // The dust that has left a fluid's box: tiles of cells, born where dust enters and dropped when almost none is left.
 //
-// The wind carries all cells along as one lattice, which loses nothing and blurs nothing, and the dust ages as in the
-// box. What enters or leaves is shared out by overlapping volumes, so that no amount is lost and even dust stays even.
-// Units: metres, amounts in m³ (density times volume). Frame: world. Owns: the tiles, booked on an account. Threads:
-// one at a time.
+// The wind moves all cells as one lattice, which neither loses nor blurs dust, and the dust ages as in the box. Dust
+// that enters or leaves is distributed by overlapping volumes, so that no amount is lost and uniform dust stays
+// uniform. Units: metres, amounts in m³ (density times volume). Frame: world. Owns: the tiles, booked on an account.
+// Threads: one at a time.
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ class DustTrail {
         bool changed = false;       ///< since the last `settle`
         float quietSeconds = 0;     ///< since dust entered
     };
-    /// By the tile's place, in tiles.
+    /// By position, in tiles.
     using Tiles = std::map<std::array<int, 3>, Tile>;
 
     /// The tile of a cell of the lattice, and its index there.
@@ -51,27 +51,27 @@ class DustTrail {
 
     DustTrail(const TrailSettings& settings, MemoryAccount& account) : settings_(settings), account_(account) {}
 
-    /// Wind and age.
+    /// Applies wind and age.
     void pass(float seconds);
     /// Spreads an amount evenly over a cuboid of at most a cell's size.
     void add(const Cuboid& where, double amountM3);
-    /// Removes what came to lie in `box` since the last call: cells whose middles are in it and were not. `taker` gets
-    /// the middle of each and its amount.
+    /// Removes the cells that entered `box` since the last call, by their centres. `taker` receives the centre and
+    /// amount of each.
     void takeEntered(const Cuboid& box, const std::function<void(const glm::dvec3& middle, double amountM3)>& taker);
-    /// Brings the tiles' amounts up to date, and drops tiles with less than `leastM3` whose densities are all less than
-    /// `leastDensity`, unless dust enters: what comes in little by little must not be dropped each time.
+    /// Updates the tiles' amounts, and drops tiles with less than `leastM3` whose densities are all less than
+    /// `leastDensity`, unless dust is entering them: dust that enters slowly must not be dropped each time.
     void settle(double leastM3 = 0, double leastDensity = 0);
 
     [[nodiscard]] const Tiles& tiles() const { return tiles_; }
     [[nodiscard]] glm::dvec3 originOf(const std::array<int, 3>& tile) const {
         return driftMetres_ + settings_.spacingMetres * edge * glm::dvec3(tile[0], tile[1], tile[2]);
     }
-    /// A place in the lattice.
+    /// A world position in lattice coordinates.
     [[nodiscard]] glm::dvec3 inCells(const glm::dvec3& place) const {
         return (place - driftMetres_) / settings_.spacingMetres;
     }
     [[nodiscard]] double spacingMetres() const { return settings_.spacingMetres; }
-    /// As of the last `settle`.
+    /// The amount at the last `settle`.
     [[nodiscard]] double amountM3() const;
     [[nodiscard]] std::uint64_t stateHash() const;
 
@@ -87,8 +87,8 @@ class DustTrail {
     TrailSettings settings_;
     MemoryAccount& account_;
     Tiles tiles_;
-    glm::dvec3 driftMetres_{0};  ///< of the lattice since the beginning
-    CellRange inBox_;            ///< at the last call of `takeEntered`
+    glm::dvec3 driftMetres_{0};  ///< displacement of the lattice since the beginning
+    CellRange inBox_;            ///< cells in the box at the last call of `takeEntered`
 };
 
 }  // namespace dustbench::grid_fluid

@@ -1,4 +1,4 @@
-// The trail of dust by itself, and together with a box that it takes from and gives to.
+// Tests the trail of dust alone, and together with a box with which it exchanges dust.
 #include "methods/grid_fluid/trail/dust_trail.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ TEST(Overlaps, ShareOutAStretchByLength) {
         }
         EXPECT_EQ(overlaps.count, overlaps.shares[1] > 0 ? 2 : 1);
         if (n % 6 == 0) {
-            EXPECT_EQ(overlaps.count, 1) << "a cell of the same lattice is one cell";
+            EXPECT_EQ(overlaps.count, 1) << "a cell of the same lattice overlaps one cell";
         }
     }
 }
@@ -71,7 +71,7 @@ TEST(DustTrail, GoesWithTheWindAgesAndLosesNothing) {
     const glm::dvec4 found = momentOf(trail);
     EXPECT_NEAR(found.w, expected.w, 1e-6 * expected.w);
     EXPECT_NEAR(trail.amountM3(), expected.w, 1e-6 * expected.w);
-    // Cells spread what they get, evenly to both sides on average only: a cell of 0.2 m, 2000 cuboids.
+    // Cells of 0.2 m spread their dust, symmetrically only on average over 2000 cuboids.
     for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(found[axis] / found.w, expected[axis] / expected.w, 0.01);
 }
 
@@ -115,10 +115,10 @@ TEST(DustTrail, GivesBackOnceWhatComesToLieInABox) {
     };
     EXPECT_EQ(take(0), 0);
     for (int i = -20; i < 40; ++i) trail.add({{i * h, 0, 0}, {i * h + h, h, h}}, 1);
-    EXPECT_EQ(take(0), 0) << "what enters a place within the box stays: the box has just let it go";
+    EXPECT_EQ(take(0), 0) << "dust added within the box stays: the box has just released it";
     EXPECT_NEAR(take(4 * h), 4, 1e-5);
     EXPECT_EQ(take(4 * h), 0);
-    EXPECT_NEAR(take(-3 * h), 3 + 4, 1e-5);  // behind it, and what it passes over again: cells 0 to 3
+    EXPECT_NEAR(take(-3 * h), 3 + 4, 1e-5);  // behind it, and cells 0 to 3, which it passes again
     trail.settle();
     EXPECT_NEAR(trail.amountM3(), 60 - 11, 1e-4);
 }
@@ -130,7 +130,7 @@ TEST(DustTrail, DropsATileOnlyIfItIsQuietSmallAndUnseen) {
         trail.settle(leastM3, leastDensity);
         return trail.tiles().size();
     };
-    // Little by little, each less than what a tile must hold.
+    // Small amounts, each below the minimum of a tile.
     for (int step = 0; step < 300; ++step) {
         trail.add({{0, 0, 0}, {h, h, h}}, 0.001);
         trail.pass(0.01f);
@@ -144,7 +144,7 @@ TEST(DustTrail, DropsATileOnlyIfItIsQuietSmallAndUnseen) {
     EXPECT_EQ(tilesLeft(1, 1.1 * density), 0u);
 }
 
-/// A box full of random density that does not flow, and a trail.
+/// A box of random density that does not flow, and a trail.
 struct Still {
     explicit Still(const glm::vec3& wind = glm::vec3(0)) {
         settings.box = {{24, 16, 20}, h, {0, 0, 0}};

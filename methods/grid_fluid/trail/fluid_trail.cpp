@@ -10,11 +10,11 @@
 namespace dustbench::grid_fluid {
 namespace {
 
-/// Shares of all dust. A tile with less is dropped if it is not seen either, a cell with less does not enter the trail.
+/// Shares of all dust. A tile with less is dropped if it is also invisible; a cell with less does not enter the trail.
 constexpr double leastOfTile = 1e-4, leastOfCell = 1e-10;
-/// Optical depth of the most that a ray could meet in a tile: about one step of an 8-bit picture.
+/// Maximum optical depth of a ray through an invisible tile: about one step of an 8-bit picture.
 constexpr double unseenDepth = 5e-3;
-/// Share of the most dust that there was, below which none counts as left.
+/// Share of the maximum amount of dust so far, below which the dust counts as gone.
 constexpr double nothing = 1e-9;
 
 /// The ground keeps the trail from sinking or rising with the wind.
@@ -32,7 +32,7 @@ Cuboid cuboidOf(const flow::FluidBox& box, const glm::dvec3& firstCell, const gl
     return {box.originMetres + firstCell * box.spacingMetres, box.originMetres + endCell * box.spacingMetres};
 }
 
-/// Where the dust is now that has just left.
+/// The current position of the dust that has just left.
 Cuboid beyondFace(const flow::FluidBox& box, const flow::LeavingDensity& leaving) {
     glm::dvec3 first(leaving.cell), end = first + 1.0;
     const int axis = leaving.axis;
@@ -81,7 +81,7 @@ void FluidTrail::enter(flow::Solver& solver) {
         for (int k = 0; k < z.count; ++k)
             for (int j = 0; j < y.count; ++j)
                 for (int i = 0; i < x.count; ++i) {
-                    // What reaches over the border goes to the cell within.
+                    // The part beyond the border goes to the cell within.
                     const glm::ivec3 cell(x.first + i, y.first + j, z.first + k);
                     const double share = x.shares[static_cast<std::size_t>(i)] * y.shares[static_cast<std::size_t>(j)] *
                                          z.shares[static_cast<std::size_t>(k)];

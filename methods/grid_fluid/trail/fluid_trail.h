@@ -1,8 +1,8 @@
-// Joins a fluid's box that follows the vehicle to the trail of dust that it leaves behind, and keeps the account of
+// Connects a fluid's box that follows the vehicle with the trail of dust that it leaves behind, and tracks the mass of
 // both.
 //
-// What leaves the box, by its moves and by the flow through its sides, enters the trail at that place; dust that the
-// box comes upon enters the box. Units: m³ (density times volume). Frame: world. Threads: one at a time.
+// Dust that leaves the box, because the box moves or by the flow through its sides, enters the trail at that place;
+// dust that the box reaches enters the box. Units: m³ (density times volume). Frame: world. Threads: one at a time.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -21,16 +21,18 @@ class FluidTrail {
  public:
     FluidTrail(const flow::FluidSettings& settings, double extinctionPerMetre, MemoryLedger& ledger);
 
-    /// Before the box moves by so many cells: what falls out of it. `density`: of its cells, x fastest.
+    /// Call this before the box moves by `by` cells: takes the dust that leaves it. `density`: that of its cells, x
+    /// fastest.
     void leave(const flow::FluidBox& box, const glm::ivec3& by, std::span<const float> density);
-    /// After it has moved, or the wind has: what comes to lie in it. The solver's solids must be set again.
+    /// Call this after the box or the wind has moved: gives it the dust that enters. The solver's solids must be set
+    /// again.
     void enter(flow::Solver& solver);
-    /// After each step.
+    /// Call this after each step.
     void pass(const flow::Solver& solver, float seconds, std::span<const flow::FluidSource> sources);
 
     [[nodiscard]] const DustTrail& dust() const { return dust_; }
-    /// What all sources raised, less what has died of age: the mass of box and trail if nothing is lost. What sources
-    /// give by their density alone is not counted. Empty while there is next to nothing.
+    /// Mass raised by all sources, minus the share that has died of age: equals the mass of box and trail if nothing is
+    /// lost. Excludes sources that are given by density only. Empty while there is hardly any dust.
     [[nodiscard]] std::optional<double> dueM3() const;
 
  private:

@@ -1,4 +1,4 @@
-// How much of each cell of a lattice a stretch covers, along one axis.
+// The shares of lattice cells that an interval covers along one axis.
 //
 // Units: cells. Threads: pure.
 #pragma once
@@ -8,10 +8,10 @@
 
 namespace dustbench::grid_fluid {
 
-/// A stretch of at most one cell touches at most two; their shares sum to 1.
+/// An interval of at most one cell touches at most two; their shares sum to 1.
 struct Overlaps {
     Overlaps(double from, double to) {
-        // Shares that are rounding errors would give birth to tiles.
+        // Shares that are rounding errors would create tiles.
         constexpr double least = 1e-6;
         first = static_cast<int>(std::floor(from));
         const double border = first + 1.0;

@@ -5,9 +5,8 @@ namespace dustbench::draw {
 void declareOpacity(ParameterSet& parameters) {
     parameters
         .choice("opacity", OpacityFrom::dust, opacityOrigins,
-                "of a particle: the dust's own, or by its age alone, as in the paper")
-        .real("young_opacity", 0.5, 0, 0.999, "",
-              "opacity at birth, where opacity=age; it falls to 0 in a straight line");
+                "opacity of a particle: the dust's own, or from age alone as in the paper")
+        .real("young_opacity", 0.5, 0, 0.999, "", "opacity at birth, with opacity=age; it falls linearly to 0");
 }
 
 std::span<const float> AgeOpacity::of(const Puffs& dust) {

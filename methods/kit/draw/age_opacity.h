@@ -3,7 +3,7 @@
 //     α = α₀·(1 − age/lifetime)
 //
 // Units: seconds. Owns: a column of opacities, booked on a ledger. Threads: one.
-// Source: Carr2006, 3.2. Departs: the straight line and α₀ are ours, because the paper gives no numbers.
+// Source: Carr2006, 3.2. Departs: the linear decrease and α₀ are ours, because the paper gives no numbers.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The last pass of methods that add colours up in any order: C = (Σ w·c)/(Σ w)·α, α = 1 − exp(−Σ depth).
+// The last pass of methods that sum colours in any order: C = (Σ w·c)/(Σ w)·α, α = 1 − exp(−Σ depth).
 //
 // Owns: its program. Threads: the OpenGL thread. Colours: linear RGB, premultiplied.
 // Source: McGuireBavoil2013, Eq. 6; Munstermann2018, 3. Departs: α from the sum of depths in place of a product.
@@ -16,7 +16,7 @@ class DUSTBENCH_API AverageColour {
  public:
     explicit AverageColour(gpu::Device& device);
 
-    /// `colours`: Σ w·c and Σ w; `depths`: its first channel is Σ depth. Both are as large as the layer.
+    /// `colours`: Σ w·c and Σ w; `depths`: Σ depth in the first channel. Both have the size of the layer.
     void draw(const gpu::Texture& colours, const gpu::Texture& depths, const gpu::Layer& layer);
 
  private:

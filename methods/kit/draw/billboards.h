@@ -32,9 +32,9 @@ struct BillboardStyle {
     /// falls smoothly from 1 at the centre to 0 at a distance of 1.5 r: 1 − 3u² + 2u³. Otherwise by the Beer–Lambert
     /// law.
     bool plainAlpha = false;
-    /// Adds light without covering anything, as fire does: C = αC_puff + C, in any order.
+    /// Adds light without covering anything, like fire: C = αC_puff + C, in any order.
     bool additive = false;
-    /// Billboards have a displacement, and are drawn at any place on it: copies of a moving puff.
+    /// Each billboard has a displacement and is drawn at several points along it: copies of a moving puff.
     bool moving = false;
 };
 
@@ -50,15 +50,15 @@ class DUSTBENCH_API Billboards : public InstanceBatch {
     /// Whether each billboard names the picture it shows: 0..frames()−1, with a fraction for cross-fading.
     [[nodiscard]] bool framed() const { return pictures_ != nullptr; }
 
-    /// Draws the instances mapped last; may be called repeatedly. `colourOfAll` applies to billboards without own
+    /// Draws the instances mapped last; may be called repeatedly. `colourOfAll` applies to billboards without their own
     /// colours.
     void draw(const scene::View& view, const glm::vec3& colourOfAll, const gpu::Layer& layer) {
         drawCopy(view, colourOfAll, layer, {0, 1});
     }
-    /// Of moving billboards: where each is, and how much of it shows.
+    /// For moving billboards: the position and the weight of one copy.
     struct Copy {
-        float back;   ///< share of the displacement that each is moved back
-        float share;  ///< of its optical depth (additive: of its light)
+        float back;   ///< fraction of the displacement by which each is moved back
+        float share;  ///< share of the optical depth (additive: of the light)
     };
     void drawCopy(const scene::View& view, const glm::vec3& colourOfAll, const gpu::Layer& layer, const Copy& copy);
 

@@ -27,8 +27,8 @@ class DUSTBENCH_API Curves : public InstanceBatch {
  public:
     Curves(gpu::Device& device, const CurveStyle& style);
 
-    /// Positions that define a path of so many steps: its ends and those between, and one step more for the last
-    /// tangent.
+    /// Number of positions that define a path of this many steps: both ends, those in between, and one more for the
+    /// last tangent.
     [[nodiscard]] static std::size_t positions(int steps) { return static_cast<std::size_t>(steps) + 2; }
 
     /// opacity red green blue, steps to draw (a fraction for a path that began within a step), then x y z of each

@@ -37,11 +37,11 @@ struct GivenDepth {
     float operator()(std::size_t i) const { return depths[i]; }
 };
 
-/// Room for `count` elements plus an eighth, so that a slowly growing cloud does not allocate each frame.
+/// Ensures a capacity of `count` elements plus an eighth, so that a slowly growing cloud does not allocate each frame.
 template <typename T>
 void hold(LedgerVector<T>& memory, std::size_t count) {
     if (memory.size() >= count) return;
-    memory.clear();  // nothing to carry over
+    memory.clear();  // no contents to copy
     memory.reserve(count + count / 8);
     memory.resize(count + count / 8);
 }

@@ -60,7 +60,7 @@ void DustShadow::set(const Puffs& dust) {
         columns_.write(std::span<const float>(values_));
         return;
     }
-    // Two texels on each side stay empty: beyond the edge sampling repeats the last one.
+    // Two texels on each side stay empty, because sampling beyond the edge repeats the last texel.
     metresPerTexel_ = glm::dvec3(glm::max(glm::dvec2(high - low) / (texels - 5.0), 1e-3), 1);
     corner_ = glm::dvec3(glm::dvec2(low) - 2.0 * glm::dvec2(metresPerTexel_), (low.z + high.z) / 2);
 
@@ -99,7 +99,7 @@ void DustShadow::set(const Puffs& dust) {
 }
 
 glm::mat4 DustShadow::eyeToTexture(const glm::dvec3& eye) const {
-    // Texel k's middle lies at k metresPerTexel from the corner, and at (k + ½)/texels in the texture.
+    // The centre of texel k is at k metresPerTexel from the corner, and at (k + ½)/texels in the texture.
     const glm::dvec3 scale = glm::dvec3(1.0 / texels, 1.0 / texels, 1) / metresPerTexel_;
     const glm::dvec3 offset = (axes_ * eye - corner_) * scale + glm::dvec3(0.5 / texels, 0.5 / texels, 0);
     glm::dmat4 matrix(1);

@@ -65,7 +65,7 @@ Cloud trail(std::size_t count) {
     return cloud;
 }
 
-/// What the shader computes, from the map read back.
+/// The shader's result, computed from the map read back.
 double depthBy(const DustShadow& shadow, const glm::dvec3& at) {
     static constexpr int n = DustShadow::texels;
     const std::vector<float> map = shadow.columns().readFloats();
@@ -128,7 +128,7 @@ TEST(DustShadow, DarkensTheGroundBySunlightAloneAndOnlyWhereDustIsLit) {
     scene.lights.hazePerMetre = 0;
     Cloud cloud;
     cloud.add({0, 2, 0}, 2, 0.95f);
-    // Straight down on the place that the puff's shadow falls on.
+    // Straight down at the place where the puff's shadow falls.
     const glm::dvec3 toSun = glm::normalize(glm::dvec3(scene.lights.toSun));
     const glm::dvec3 foot = glm::dvec3(0, 2, 0) - toSun * (2 / toSun.y);
     scene::View view = test::viewFrom(foot + glm::dvec3(0, 6, 0), foot, 64, 64);

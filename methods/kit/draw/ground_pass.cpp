@@ -18,8 +18,8 @@ namespace {
 /// Packed ground is darker than the dust that comes off it.
 constexpr float packedShare = 0.52f;
 
-/// Half the width of the strip that holds the track's ruts, and the cuts along its length, which keep each triangle's
-/// depth range short.
+/// Half the width of the strip with the track's ruts, and the cuts along its length, which keep each triangle's depth
+/// range short.
 constexpr float trackHalfWidthMetres = 2.7f;
 constexpr std::array<float, 13> trackCutsMetres{-4096, -1024, -256, -64, -16, -4, 0, 4, 16, 64, 256, 1024, 4096};
 

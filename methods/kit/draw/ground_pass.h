@@ -25,7 +25,7 @@ class GroundPass {
     GroundPass(gpu::Device& device, const scene::Scene& scene);
 
     /// Draws the ground's colour and depth as seen from `eye`. Shadows are sampled only within `shaded`, where the
-    /// ground is drawn a second time; this is cheaper than sampling shadows everywhere. `lamps`: those that are bound
+    /// ground is drawn a second time; this is cheaper than sampling shadows everywhere. If `lamps`, the bound lamps
     /// light it too.
     void draw(const glm::dvec3& eye, const glm::mat4& eyeToClip, std::span<const GroundRectangle> shaded, bool lamps);
 
@@ -35,7 +35,7 @@ class GroundPass {
  private:
     struct Programs {
         Programs(gpu::Device& device, const scene::Scene& scene, bool lamps);
-        gpu::Program plain, track, shaded;  ///< `track` is empty where the ground has none
+        gpu::Program plain, track, shaded;  ///< `track` is empty if the ground has none
     };
 
     void place(gpu::Program& program, const glm::dvec3& eye, bool withTrack);

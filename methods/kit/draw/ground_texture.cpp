@@ -133,7 +133,7 @@ std::vector<std::uint8_t> makeGroundDetail(glm::vec3 albedo, glm::vec3 toSun) {
     Field hue = makeNoise(detailTexels, 16, 4, 0.07f, 0.8f, hueNoise);
     addStones(relief, tone, 5200);
 
-    // Raises a low sun, which would put everything in shade: the relief must be visible rather than exact.
+    // Raises a low sun, which would put everything in shade: the relief must be visible, not physically correct.
     const glm::vec3 light = glm::normalize(glm::vec3(toSun.x, std::max(toSun.y, 0.5f), toSun.z));
     std::vector<glm::vec3> colours;
     glm::dvec3 sum(0);

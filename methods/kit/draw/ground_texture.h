@@ -1,7 +1,7 @@
 // Textures of the ground, near and far: two seamless noise-based tiles of packed dirt with gravel.
 //
-// The first holds grains and stones as albedo with the relief's shading baked in. The second holds patches of tens of
-// metres, which hide the repetition of the first.
+// The first contains grains and stones as albedo with the relief's shading baked in. The second contains patches of
+// tens of metres, which hide the repetition of the first.
 // Units: metres. Deterministic: the same arguments give the same tiles. Threads: pure.
 #pragma once
 

@@ -32,8 +32,8 @@ struct InstanceLayout {
     bool coloured = false;   ///< red green blue at the end, unless all shapes share one colour
 };
 
-/// Fragments for shapes, beside a pass's own: their shader, the `.glsl` pieces of both stages, and the programs made of
-/// them.
+/// A fragment shader for shapes that replaces the pass's own, the `.glsl` pieces of both stages, and the programs built
+/// from them.
 struct FragmentPass {
     const char* name;  ///< used in labels and messages
     std::vector<gpu::ShaderFile> files;
@@ -44,7 +44,7 @@ struct FragmentPass {
 /// Base class for a pass that draws one kind of shape.
 class DUSTBENCH_API InstanceBatch {
  public:
-    /// GPU memory for `count` shapes in drawing order; write-only; fill it, then call `unmap`.
+    /// Maps GPU memory for `count` shapes in drawing order; write-only. Fill it, then call `unmap`.
     [[nodiscard]] std::span<float> map(std::size_t count, const InstanceLayout& layout);
     void unmap();
 

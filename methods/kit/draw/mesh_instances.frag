@@ -1,4 +1,4 @@
-// A matt surface in sun and sky, premultiplied; behind the opaque scene it is left out.
+// A matt surface lit by sun and sky, premultiplied; discarded behind the opaque scene.
 in vec3 outwards;
 in vec3 fromEye;
 in vec3 diffuse;

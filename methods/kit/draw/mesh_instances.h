@@ -1,11 +1,11 @@
-// Draws a mesh in the place of each particle, in one instanced draw call.
+// Draws a mesh in place of each particle, in one instanced draw call.
 //
-// Meshes hide each other and are hidden by the scene: they are drawn with depths of their own, and the nearest one of
-// each pixel is blended over the layer by its particle's opacity. A mesh is centred on its particle and scaled so that
-// the sphere around it has the particle's radius. Light: matt, by the scene's sun and sky, without shadows.
+// Meshes hide each other and are hidden by the scene: they are drawn with a separate depth buffer, and the nearest mesh
+// of each pixel is blended over the layer with its particle's opacity. A mesh is centred on its particle and scaled so
+// that its bounding sphere has the particle's radius. Light: matt, by the scene's sun and sky, without shadows.
 //
-// Units: m. Frame: world. Colours: linear RGB, the particle's times the mesh's. Owns: mesh, instances, a picture of the
-// layer's size. Threads: the OpenGL thread. Source: Thesis, 4.1.7.
+// Units: m. Frame: world. Colours: linear RGB, the particle's times the mesh's. Owns: the mesh, the instances and a
+// picture of the layer's size. Threads: the OpenGL thread. Source: Thesis, 4.1.7.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ namespace dustbench::draw {
 
 class DUSTBENCH_API MeshInstances {
  public:
-    /// `alongVelocity`: the mesh's x axis follows the velocity; otherwise all have the mesh's own orientation.
+    /// `alongVelocity`: the mesh's x axis follows the velocity; otherwise all keep the mesh's own orientation.
     MeshInstances(gpu::Device& device, const scene::Mesh& mesh, const scene::Lights& lights, bool alongVelocity);
 
     /// x y z radius opacity velocity (3) red green blue

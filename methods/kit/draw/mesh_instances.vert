@@ -1,4 +1,4 @@
-// A mesh in the place of each particle: scaled, turned along its velocity or not at all.
+// A mesh in place of each particle: scaled, and optionally turned along its velocity.
 layout(location = 0) in vec3 position;  // the mesh's frame
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 albedo;

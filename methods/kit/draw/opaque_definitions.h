@@ -1,4 +1,4 @@
-// The definitions that all shaders of the opaque scene are compiled with.
+// The preprocessor definitions for all shaders of the opaque scene.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace dustbench::draw {
 
-/// VEHICLE and SOLIDS where the scene has such casters of shadows; DUST where dust throws one; LAMPS with lamps.
+/// VEHICLE and SOLIDS if the scene has such shadow casters; DUST if dust casts a shadow; LAMPS with lamps.
 [[nodiscard]] inline std::map<std::string, std::string> opaqueDefinitions(const scene::Scene& scene, bool lamps) {
     std::map<std::string, std::string> result = shadowCasters(scene);
     if (scene.lights.onDust) result.emplace("DUST", "1");

@@ -1,4 +1,4 @@
-// Fraction of the sun's light that dust leaves at a point; see dust_shadow.h.
+// Fraction of the sun's light that reaches a point through the dust; see dust_shadow.h.
 #ifdef DUST
 layout(binding = 5) uniform sampler2D dustColumns;
 

@@ -1,4 +1,4 @@
-// What lamps give a point of the opaque scene. LAMPS: the scene has any; the uniforms are those of opaque_moment.h.
+// Light from lamps at a point of the opaque scene. LAMPS: the scene has any; the uniforms are those of opaque_moment.h.
 #ifdef LAMPS
 struct Lamp {
     vec4 place;  // relative to the eye; w: its radius, squared
@@ -9,7 +9,7 @@ layout(std140, binding = 1) uniform Lamps {
     Lamp lamps[MAXIMUM_LAMPS];
 };
 
-// E = Σ I·cos θ/d²; a lamp's own size limits it nearby.
+// E = Σ I·cos θ/d²; a lamp's radius limits it at close range.
 vec3 lampLight(vec3 fromEye, vec3 normal) {
     vec3 light = vec3(0.0);
     for (int i = 0; i < lampCount.x; ++i) {

@@ -1,4 +1,4 @@
-// Tests what lamps add to the opaque scene against closed forms.
+// Tests the light of lamps on the opaque scene against closed forms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ glm::dvec3 lampRay(const scene::View& view, int x, int y) {
     return glm::dvec3(view.rayDirection(x + 0.5, y + 0.5));
 }
 
-/// No sun and no haze: what a lamp adds to the sky's light is its irradiance over the ambient light.
+/// Without sun and haze, a lamp adds light to the sky's in proportion to its irradiance over the ambient light.
 scene::Scene underTheSkyAlone() {
     scene::Scene scene;
     scene.lights.sun = glm::vec3(0);

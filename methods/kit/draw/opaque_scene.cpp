@@ -47,7 +47,7 @@ gpu::Program solidProgramOf(gpu::Device& device, std::string_view label,
             definitions};
 }
 
-/// Of solids and vehicle, and of panels where they are seen.
+/// The programs for solids and vehicle, and for panels if they are visible.
 struct SolidPrograms {
     SolidPrograms(gpu::Device& device, const scene::Scene& scene, bool panels, bool lamps)
         : solid(solidProgramOf(device, "solid", opaqueDefinitions(scene, lamps))) {
@@ -301,7 +301,7 @@ void OpaqueScene::draw(const scene::SceneState& state, const scene::View& view,
     if (lamps.size() > maximumLamps)
         throw std::invalid_argument("OpaqueScene: more lamps than " + std::to_string(maximumLamps));
     if (view.width != colour().width() || view.height != colour().height())
-        throw std::invalid_argument("OpaqueScene: the view's size is not the one given at construction");
+        throw std::invalid_argument("OpaqueScene: the view's size differs from the scene's");
     if (!state_) {
         targets_->target.bind();
         targets_->target.clearColour(background_.r, background_.g, background_.b, 1);

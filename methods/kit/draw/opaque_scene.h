@@ -1,5 +1,5 @@
-// Draws the opaque scene: sky and sun, textured ground, solids, panels, the vehicle with its wheels, and shadows. If
-// its scenery is hidden, it is the horizon's colour alone.
+// Draws the opaque scene: sky and sun, textured ground, solids, panels, the vehicle with its wheels, and shadows. With
+// hidden scenery, only the horizon's colour.
 //
 // Units: linear colour, scene metres. Depth: reversed, 32-bit float. Owns: its colour and depth targets.
 #pragma once
@@ -17,7 +17,7 @@ namespace dustbench::draw {
 /// How the scene's panels appear: flat, or not at all because a method draws them. They cast shadows either way.
 enum class ScenePanels { flat, hidden };
 
-/// Hidden: nothing of the scene is drawn, nor held for drawing. colour() is the horizon's, and depth() is far away.
+/// Hidden: draws nothing and allocates nothing for drawing. colour() is the horizon's, and depth() is infinitely far.
 enum class Scenery { drawn, hidden };
 
 class DUSTBENCH_API OpaqueScene {
@@ -30,12 +30,12 @@ class DUSTBENCH_API OpaqueScene {
     OpaqueScene(const OpaqueScene&) = delete;
     OpaqueScene& operator=(const OpaqueScene&) = delete;
 
-    /// Pictures have this size from now on; colour() and depth() are other textures then, in the same places.
+    /// Sets the size of the pictures; colour() and depth() then return new textures.
     void resize(int width, int height);
 
-    /// Draws the given state into colour() and depth(). `view` must have the scene's size. `lamps` light
-    /// it besides the sun and the sky: Lambert's law, no shadows. Without any the picture is the same, bit for bit.
-    /// `dust` throws a shadow where the scene's lights light it (scene::Lights::onDust).
+    /// Draws the given state into colour() and depth(). `view` must have the scene's size. `lamps` light it in addition
+    /// to the sun and the sky: Lambert's law, no shadows. Without lamps the picture is the same, bit for bit. `dust`
+    /// casts a shadow if scene::Lights::onDust.
     void draw(const scene::SceneState& state, const scene::View& view, std::span<const scene::PointLight> lamps = {},
               const Puffs& dust = {});
 
@@ -46,8 +46,8 @@ class DUSTBENCH_API OpaqueScene {
     struct Targets;
     struct State;
     std::unique_ptr<Targets> targets_;
-    std::unique_ptr<State> state_;  ///< none if the scenery is hidden
-    glm::vec3 background_{0};       ///< in its place
+    std::unique_ptr<State> state_;  ///< null if the scenery is hidden
+    glm::vec3 background_{0};       ///< used instead
 };
 
 }  // namespace dustbench::draw

@@ -1,4 +1,4 @@
-// Fraction of the sun's light that reaches a point. VEHICLE and SOLIDS tell which casters the scene has.
+// Fraction of the sun's light that reaches a point. VEHICLE and SOLIDS are defined if the scene has such casters.
 #ifdef VEHICLE
 layout(binding = 2) uniform sampler2DShadow vehicleShadow;
 #endif
@@ -35,7 +35,7 @@ float sunShare(vec3 fromEye, vec3 normal, float lift) {
     return share;
 }
 
-// Fraction of the sky that is visible from the ground beside and below the vehicle.
+// Fraction of the sky that is visible from the ground next to and below the vehicle.
 float skyShare(vec3 fromEye) {
 #ifdef VEHICLE
     vec3 own = (eyeToVehicle * vec4(fromEye, 1.0)).xyz;

@@ -1,4 +1,4 @@
-// Scenes for the tests of this folder: boxes, and a vehicle made of them.
+// Scenes for the tests of this folder: boxes, and a vehicle made of boxes.
 #pragma once
 
 #include <array>
@@ -53,7 +53,7 @@ inline scene::Scene underAHighSun() {
     return scene;
 }
 
-/// The vehicle standing on the ground at (x, z), looking along +X.
+/// The vehicle on the ground at (x, z), heading along +X.
 inline scene::SceneState vehicleAt(const scene::Scene& scene, double x, double z) {
     const auto ground = [&](double a, double b) {
         return static_cast<double>(scene.terrain.heightAt(static_cast<float>(a), static_cast<float>(b)));

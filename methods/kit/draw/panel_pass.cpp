@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t pictureUnit = 4;
 
-/// A quadrilateral with corners counter-clockwise seen from outside, and what each corner has for a colour.
+/// A quadrilateral with corners counter-clockwise seen from outside, and a colour for each corner.
 void append(scene::Mesh& mesh, const std::array<glm::vec3, 4>& corners, const std::array<glm::vec3, 4>& colours) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const glm::vec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));

@@ -35,7 +35,7 @@ class PanelPass {
     void castFromVehicle(const scene::VehicleState& vehicle, const glm::mat4& toLight, gpu::Program& caster) const;
 
     [[nodiscard]] bool empty() const { return panels_.empty(); }
-    /// Largest distance of a vehicle's panel from the origin of the vehicle; 0 without one.
+    /// Largest distance of a vehicle's panel from the vehicle's origin; 0 if there are none.
     [[nodiscard]] double reachOnVehicleMetres() const;
 
  private:

@@ -16,7 +16,7 @@ constexpr double marginMetres = 0.3;  // a few of the shadow map's texels
 
 PlacedSolids::PlacedSolids(const scene::Scene& scene, gpu::Device& device) : scene_(scene) {
     if (scene.solidPoses.size() != scene.solids.size())
-        throw std::invalid_argument("OpaqueScene: every solid needs its pose");
+        throw std::invalid_argument("OpaqueScene: every solid needs a pose");
     std::map<const scene::Mesh*, std::shared_ptr<SolidMesh>> shapes;
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
         const scene::Solid& solid = scene.solids[i];

@@ -1,4 +1,4 @@
-// The solids of a scene and the plates of its panels, as they stand at one moment, with the ground that their shadows
+// The solids of a scene and the plates of its panels at one moment, with the ground areas that their shadows can
 // reach.
 //
 // Units: metres. Frame: world. Owns: their meshes on the GPU.
@@ -18,13 +18,13 @@ namespace dustbench::draw {
 
 struct PlacedSolid {
     std::shared_ptr<SolidMesh> mesh;  ///< shared by all solids of the same shape
-    bool castsOnly = false;           ///< drawn elsewhere
+    bool castsOnly = false;           ///< another pass draws it
     glm::mat4 toWorld{1};
     glm::dvec3 centre{0};
     double radiusMetres = 0;
     std::vector<GroundRectangle> footprints{};              ///< the ground that its shadow can reach
-    std::optional<std::size_t> moving{};                    ///< its number in the scene, if it moves
-    std::shared_ptr<const scene::DeformedMesh> deformed{};  ///< the shape that it has, if it deforms
+    std::optional<std::size_t> moving{};                    ///< index in the scene, if it moves
+    std::shared_ptr<const scene::DeformedMesh> deformed{};  ///< current shape, if it deforms
 
     [[nodiscard]] bool touches(const glm::dvec3& place, double reachMetres) const {
         return glm::distance(place, centre) - radiusMetres < reachMetres;
@@ -40,7 +40,7 @@ class PlacedSolids {
     bool moveTo(const scene::SceneState& state);
 
     [[nodiscard]] const std::vector<PlacedSolid>& all() const { return all_; }
-    /// Of all of them; none overlaps another.
+    /// Of all solids and plates; the rectangles do not overlap.
     [[nodiscard]] const std::vector<GroundRectangle>& footprints() const { return footprints_; }
 
  private:

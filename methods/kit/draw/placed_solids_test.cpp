@@ -1,4 +1,4 @@
-// Solids that move, in pictures: as solids that are still where they are at the moment, with their shadows.
+// Tests pictures of moving solids: the same as those of fixed solids at the current positions, with their shadows.
 #include "methods/kit/draw/placed_solids.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ glm::mat4 poseAt(float time) {
     return glm::rotate(glm::translate(glm::mat4(1), {2 * time, 0.3f, -time}), time, {0, 1, 0});
 }
 
-/// The box is wider and lower the later it is.
+/// The box grows wider and lower over time.
 std::shared_ptr<const scene::DeformedMesh> shapeAt(const scene::Mesh& rest, float time) {
     auto shape = std::make_shared<scene::DeformedMesh>(scene::DeformedMesh{rest, {}});
     for (glm::vec3& position : shape->mesh.positions) position *= glm::vec3(1 + time, 1 - 0.3f * time, 1);

@@ -1,5 +1,5 @@
-// Puffs as quads for methods that add something up for each of them, in any order: fragments know the puff along the
-// pixel's ray in closed form, cut by eye and scene.
+// Puffs as quads, for methods that add a value per puff in any order: fragment shaders get the puff along the pixel's
+// ray in closed form, cut at the eye and the scene.
 //
 // A method's fragment shader reads `flat in vec4 centre; flat in float logDepth;` and, if COLOURED, `flat in vec3
 // puffColour`, and calls the functions of puff_ray.glsl. Its outputs are added to the bound sums. Depth 1 − share
@@ -15,7 +15,7 @@
 
 namespace dustbench::draw {
 
-/// A pass over puffs: a fragment shader and its pieces, besides those of puff_ray.glsl.
+/// A pass over puffs: a fragment shader and its pieces, in addition to puff_ray.glsl.
 [[nodiscard]] DUSTBENCH_API FragmentPass puffPass(const char* name, std::vector<gpu::ShaderFile> files,
                                                   std::map<std::string, std::string> definitions = {});
 
@@ -23,7 +23,7 @@ class DUSTBENCH_API PuffQuads : public InstanceBatch {
  public:
     PuffQuads(gpu::Device& device, double reachDeviations);
 
-    /// Copies the puffs, in their order, with colours of their own if they have any.
+    /// Copies the puffs in their order, with their own colours if they have any.
     void upload(const Puffs& dust);
     [[nodiscard]] bool isColoured() const { return layoutOfAll().coloured; }
 

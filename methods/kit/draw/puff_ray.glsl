@@ -1,13 +1,13 @@
 /// A puff along a ray from the eye: its extinction is τ·exp(−b²/2s²)·exp(−x²)/√π, x = (t − tc)/(√2·s), from `begin` to
 /// `end`.
 struct PuffOnRay {
-    float whole;       // τ·exp(−b²/2s²): its depth if nothing cut it
+    float whole;       // τ·exp(−b²/2s²): its depth if uncut
     float foot;        // tc, metres
     float metres;      // √2·s
     float begin, end;  // x at the eye and at the scene
 };
 
-/// `centre` from the eye, with 1/(√2·s); `direction` of length 1 in the same axes.
+/// `centre` is relative to the eye, with 1/(√2·s) in w; `direction` has length 1 and uses the same axes.
 PuffOnRay puffOnRay(vec4 centre, float logDepth, vec3 direction, float sceneMetres) {
     PuffOnRay puff;
     puff.foot = dot(centre.xyz, direction);

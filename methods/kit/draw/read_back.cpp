@@ -11,7 +11,7 @@ pictures::Image readBack(const gpu::Texture& texture) {
     const bool fourChannels = texture.format() == gpu::Format::rgba8 || texture.format() == gpu::Format::srgba8 ||
                               texture.format() == gpu::Format::rgba16F || texture.format() == gpu::Format::rgba32F;
     if (!fourChannels || texture.depth() != 1)
-        throw std::invalid_argument("readBack: a flat texture of four channels is needed");
+        throw std::invalid_argument("readBack: expected a 2D texture with four channels");
     const std::vector<float> values = texture.readFloats();
     pictures::Image image{texture.width(), texture.height(), std::vector<glm::vec4>(values.size() / 4)};
     const auto row = static_cast<std::size_t>(image.width);
@@ -26,7 +26,7 @@ pictures::Image readBack(const gpu::Texture& texture) {
 
 std::vector<float> readBackDepth(const gpu::Texture& texture) {
     if (texture.format() != gpu::Format::depth32F || texture.depth() != 1)
-        throw std::invalid_argument("readBackDepth: a flat texture of depths is needed");
+        throw std::invalid_argument("readBackDepth: expected a 2D texture of depths");
     std::vector<float> depths = texture.readFloats();
     const std::ptrdiff_t width = texture.width(), height = texture.height();
     for (std::ptrdiff_t y = 0; y < height / 2; ++y)

@@ -19,7 +19,7 @@ SolidMesh::SolidMesh(gpu::Device& device, const scene::Solid& solid) : layout_(d
     if (!solid.mesh || solid.mesh->positions.empty()) throw std::invalid_argument("solid without vertices");
     const scene::Mesh& mesh = *solid.mesh;
     if (mesh.normals.size() != mesh.positions.size() || mesh.colours.size() != mesh.positions.size())
-        throw std::invalid_argument("solid '" + solid.name + "': one normal and one colour a vertex are needed");
+        throw std::invalid_argument("solid '" + solid.name + "': expected one normal and one colour per vertex");
 
     vertexCount_ = mesh.positions.size();
     vertices_ = gpu::Buffer(device, "solid vertices", vertexCount_ * sizeof(Vertex));
@@ -35,7 +35,7 @@ SolidMesh::SolidMesh(gpu::Device& device, const scene::Solid& solid) : layout_(d
 void SolidMesh::reshape(const scene::Mesh& mesh) {
     if (mesh.positions.size() != vertexCount_ || mesh.normals.size() != vertexCount_ ||
         mesh.colours.size() != vertexCount_)
-        throw std::invalid_argument("SolidMesh: a shape of another number of vertices");
+        throw std::invalid_argument("SolidMesh: the shape has a different number of vertices");
     write(mesh);
 }
 

@@ -17,7 +17,7 @@ class DUSTBENCH_API SolidMesh {
  public:
     SolidMesh(gpu::Device& device, const scene::Solid& solid);
 
-    /// Another shape of as many vertices, with the same triangles. Throws std::invalid_argument for other numbers.
+    /// Replaces the shape by one with the same triangles. Throws std::invalid_argument for another number of vertices.
     void reshape(const scene::Mesh& mesh);
 
     void draw(const gpu::Program& program, const gpu::DrawState& state, int instances = 1) const;

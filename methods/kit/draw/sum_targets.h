@@ -1,4 +1,4 @@
-// Textures of one size that passes add to, and the framebuffer of them all.
+// Textures of one size that passes add to, with a framebuffer for all of them.
 //
 // Owns: the textures. Threads: the OpenGL thread.
 #pragma once
@@ -14,10 +14,10 @@ namespace dustbench::draw {
 
 class DUSTBENCH_API SumTargets {
  public:
-    /// `label` is the name that their bytes are booked under.
+    /// Their bytes are booked under the name `label`.
     SumTargets(gpu::Device& device, std::string label, std::vector<gpu::Format> formats);
 
-    /// Fits them to the size, clears them to 0 and binds them.
+    /// Fits them to the given size, clears them to 0 and binds them.
     void begin(int width, int height);
     [[nodiscard]] const gpu::Texture& texture(std::size_t i) const { return textures_.at(i); }
     [[nodiscard]] std::size_t gpuBytes() const;

@@ -1,4 +1,4 @@
-// A small image for tests and benchmarks of drawing code: a view, arbitrary opaque depths, and a layer over them.
+// A small image for tests and benchmarks of drawing code: a view, arbitrary opaque depths, and a layer.
 //
 // Owns: one OpenGL context for the whole program, and the layer. Depths: reversed, as in contract/view.h.
 #pragma once

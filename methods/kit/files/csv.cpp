@@ -90,8 +90,8 @@ CsvTable CsvTable::parseText(std::string_view text, std::string name) {
     if (table.header_.size() == 1)
         for (const auto& [separator, word] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")})
             if (table.header_.front().find(separator) != std::string::npos)
-                throw InputError(table.name_ + ":1: its cells are separated by " + word +
-                                 ", expected commas, and points in numbers (not 1,5 but 1.5)");
+                throw InputError(table.name_ + ":1: cells are separated by " + word +
+                                 ", expected commas, and decimal points in numbers (1.5, not 1,5)");
     std::vector<std::string> cells;
     while (records.next(cells, line)) {
         if (cells.size() != table.header_.size())

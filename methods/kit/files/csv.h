@@ -33,7 +33,7 @@ class DUSTBENCH_API CsvTable {
     std::vector<std::size_t> lines_;
 };
 
-/// The whole text as a finite number, however small, else empty.
+/// The whole text as a finite number, including denormal ones; otherwise empty.
 [[nodiscard]] DUSTBENCH_API std::optional<double> numberOf(std::string_view text);
 /// A cell's text, quoted if necessary.
 [[nodiscard]] DUSTBENCH_API std::string csvCell(std::string_view text);

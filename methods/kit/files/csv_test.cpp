@@ -26,9 +26,9 @@ TEST(Csv, OtherSeparatorsAndUtf16AreNamed) {
         }
         return std::string();
     };
-    const std::string commas = ", expected commas, and points in numbers (not 1,5 but 1.5)";
-    EXPECT_EQ(refusal("time_s;steer\n0;0\n1,5;0\n"), "t:1: its cells are separated by semicolons" + commas);
-    EXPECT_EQ(refusal("x\ty\n1\t2\n"), "t:1: its cells are separated by tabs" + commas);
+    const std::string commas = ", expected commas, and decimal points in numbers (1.5, not 1,5)";
+    EXPECT_EQ(refusal("time_s;steer\n0;0\n1,5;0\n"), "t:1: cells are separated by semicolons" + commas);
+    EXPECT_EQ(refusal("x\ty\n1\t2\n"), "t:1: cells are separated by tabs" + commas);
     EXPECT_EQ(refusal(std::string_view("\xFF\xFEx\0,\0y\0", 8)), "t: the file is in UTF-16, expected UTF-8");
     EXPECT_EQ(refusal(std::string_view("\xFE\xFF\0x\0,\0y", 8)), "t: the file is in UTF-16, expected UTF-8");
     EXPECT_EQ(refusal("x\n1\n"), "");

@@ -19,11 +19,11 @@ namespace {
 
 constexpr const char* variable = "DUSTBENCH_DATA";
 constexpr char separator = ':';
-/// What a folder of data may hold.
+/// Subfolders of a data folder.
 constexpr std::array<const char*, 8> parts{"scenes", "drives", "particles", "textures",
                                            "shapes", "fluids", "volumes",   "suites"};
 
-/// Absolute, so that processes in other folders find it as well.
+/// Returns an absolute path, so that processes in other folders find it too.
 fs::path checkedFolder(std::string_view option, const std::string& named) {
     const fs::path folder = fs::absolute(named).lexically_normal();
     if (!fs::exists(folder))
@@ -34,8 +34,8 @@ fs::path checkedFolder(std::string_view option, const std::string& named) {
                                return fs::is_directory(folder / part);
                            });
     if (!holdsData)
-        throw InputError(fmt::format("{}: '{}': holds no data, expected one or more of the folders {}, papers", option,
-                                     named, fmt::join(parts, ", ")));
+        throw InputError(fmt::format("{}: '{}': contains no data, expected one or more of the folders {}, papers",
+                                     option, named, fmt::join(parts, ", ")));
     return folder;
 }
 
@@ -49,7 +49,7 @@ std::vector<std::string_view> eachOf(std::string_view extensions) {
     }
 }
 
-/// Calls `take` for every entry of `<folder>` in all folders of data.
+/// Calls `take` for every entry of `<folder>` in all data folders.
 template <typename Take>
 void forEachEntry(std::string_view folder, const Take& take) {
     for (const fs::path& data : dataFolders()) {

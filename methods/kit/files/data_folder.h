@@ -1,7 +1,7 @@
-// Where data lie: scenes, drives, particle systems, suites, papers.
+// Finds data: scenes, drives, particle systems, suites, papers.
 //
-// Data have names, which are looked up in several folders of one layout. The first folder that has a name wins, so that
-// a user's folder adds names and replaces those that it repeats.
+// Data have names, which are looked up in several folders of the same layout. The first folder that contains a name
+// wins, so a user's folder can add names and replace existing ones.
 #pragma once
 
 #include <filesystem>
@@ -11,21 +11,21 @@
 
 namespace dustbench::files {
 
-/// The data delivered with the program. Throws InputError where they are missing.
+/// The data delivered with the program. Throws InputError if they are missing.
 [[nodiscard]] DUSTBENCH_API std::filesystem::path dataFolder();
 
-/// The folders that $DUSTBENCH_DATA names, separated by colons. Throws InputError where one is missing or holds no
+/// The folders that $DUSTBENCH_DATA names, separated by colons. Throws InputError if one is missing or contains no
 /// data.
 [[nodiscard]] DUSTBENCH_API std::vector<std::filesystem::path> namedDataFolders();
 
-/// In the order of the search: namedDataFolders(), then dataFolder(). Throws InputError where there is none at all.
+/// In search order: namedDataFolders(), then dataFolder(). Throws InputError if there is none.
 [[nodiscard]] DUSTBENCH_API std::vector<std::filesystem::path> dataFolders();
 
-/// For this process and those that it starts: instead of what $DUSTBENCH_DATA names. `option` is the word for messages.
-/// Throws InputError as namedDataFolders does.
+/// Replaces the folders of $DUSTBENCH_DATA for this process and those that it starts. `option` names the source in
+/// messages. Throws InputError as namedDataFolders does.
 DUSTBENCH_API void useDataFolders(std::string_view option, const std::vector<std::string>& folders);
 
-/// `<folder>/<relative>` in the first of dataFolders() that has it; empty where none has.
+/// `<folder>/<relative>` in the first of dataFolders() that contains it; empty if none does.
 [[nodiscard]] DUSTBENCH_API std::filesystem::path dataPath(const std::filesystem::path& relative);
 
 /// Names of the files `<folder>/*<extension>` in all dataFolders(), sorted, each once. `.vdb|.vti` are two extensions.
@@ -34,25 +34,25 @@ DUSTBENCH_API void useDataFolders(std::string_view option, const std::vector<std
 /// Names of the folders `<folder>/*/` in all dataFolders(), sorted, each once.
 [[nodiscard]] DUSTBENCH_API std::vector<std::string> listDataFolders(std::string_view folder);
 
-/// True for a file's path, which a name of data is not: it has a '/' or the extension.
+/// True if the text is a path rather than a name of data: it contains a '/' or ends in the extension.
 [[nodiscard]] DUSTBENCH_API bool isDataFile(std::string_view nameOrFile, std::string_view extension);
 
-/// A path within the file `from`, which is relative to that file's folder; a name stays as it is.
+/// Resolves a path in the file `from`, which is relative to that file's folder; returns a name unchanged.
 [[nodiscard]] DUSTBENCH_API std::string fromFile(const std::filesystem::path& from, const std::string& nameOrFile,
                                                  std::string_view extension);
 
-/// The file that the data file `from` names by a path: relative to `from`, so that both can be moved together, else as
-/// `<folder>/<named>` among the data. Notes it as an input. Throws InputError with the places that were tried and the
-/// nearest name.
+/// The file that the data file `from` names by a path: relative to `from`, so that both can be moved together, or
+/// else `<folder>/<named>` in the data. Notes it as an input. Throws InputError with the places that were tried and
+/// the nearest name.
 [[nodiscard]] DUSTBENCH_API std::filesystem::path fileNamedBy(const std::filesystem::path& from,
                                                               std::string_view folder, const std::string& named);
 
-/// The file that a name of `<folder>` stands for, or a path itself. Throws InputError with the nearest name or file;
-/// `kind` is the word for messages: `scene`, `drive`.
+/// The file of a name in `<folder>`, or the path itself if one is given. Throws InputError with the nearest name or
+/// file; `kind` is the noun for messages: `scene`, `drive`.
 [[nodiscard]] DUSTBENCH_API std::filesystem::path findData(std::string_view kind, std::string_view folder,
                                                            std::string_view nameOrFile, std::string_view extension);
 
-/// For messages: ` (did you mean 'plain.toml'?)`, or empty where nothing beside `missing` is named like it.
+/// For messages: ` (did you mean 'plain.toml'?)`, or empty if no neighbour of `missing` has a similar name.
 [[nodiscard]] DUSTBENCH_API std::string nearestBeside(const std::filesystem::path& missing);
 
 }  // namespace dustbench::files

@@ -27,7 +27,7 @@ class DataFolders : public testing::Test {
         if (const char* before = std::getenv("DUSTBENCH_DATA")) before_ = before;
         unsetenv("DUSTBENCH_DATA");
     }
-    /// A file of a folder `name` of data.
+    /// A file in the data folder `name`.
     [[nodiscard]] fs::path add(const std::string& name, const std::string& file) const {
         fs::create_directories((folder_.path() / name / file).parent_path());
         return folder_.write(name + "/" + file, "x");
@@ -69,7 +69,7 @@ TEST_F(DataFolders, AFileNamedInAFileLiesBesideItElseAmongTheData) {
     EXPECT_EQ(named("meshes/tree.ply"), data);
     EXPECT_EQ(named("meshes/hare.ply"), dataFolder() / "shapes/meshes/hare.ply");
     EXPECT_EQ(named(both.string()), both);
-    // Where the program was started does not count.
+    // The working directory has no influence.
     const fs::path before = fs::current_path();
     fs::current_path(folder_.path() / "own" / "meshes");
     EXPECT_THAT(inputError([&] { (void)named("stone.ply"); }), HasSubstr("'stone.ply': no such file"));
@@ -97,7 +97,7 @@ TEST_F(DataFolders, ThatAreMissingOrHoldNoDataAreRefused) {
         return inputError([&] { useDataFolders("--data", {folder}); });
     };
     EXPECT_EQ(refused(at("mime")), "--data: '" + at("mime") + "': no such folder (did you mean '" + at("mine") + "'?)");
-    EXPECT_THAT(refused(at("mine/scenes")), HasSubstr("holds no data, expected one or more of the folders scenes"));
+    EXPECT_THAT(refused(at("mine/scenes")), HasSubstr("contains no data, expected one or more of the folders scenes"));
     EXPECT_THAT(refused(at("mine/scenes/plain.toml")), HasSubstr("is a file"));
     (void)add("a:b", "scenes/plain.toml");
     EXPECT_THAT(refused(at("a:b")), HasSubstr("separates folders"));

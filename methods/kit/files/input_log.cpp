@@ -17,7 +17,7 @@ InputLog* current = nullptr;
 
 InputLog::InputLog() {
     const std::scoped_lock lock(guard);
-    if (current) throw std::logic_error("InputLog: there is one already");
+    if (current) throw std::logic_error("InputLog: one already exists");
     current = this;
 }
 
@@ -56,8 +56,7 @@ void noteSearch(const std::filesystem::path& path) {
 
 void noteInput(const std::filesystem::path& file) {
     if (!isUtf8(file.native()))
-        throw InputError(printable(file.native()) +
-                         ": the file's name is not UTF-8, in which results name their inputs; rename it");
+        throw InputError(printable(file.native()) + ": the file's name is not UTF-8, as results require; rename it");
     const std::scoped_lock lock(guard);
     if (current) current->files_.insert(std::filesystem::absolute(file).lexically_normal());
 }

@@ -1,5 +1,5 @@
-// Notes which files are read as data, those that other files name included, and what of them is ignored: the inputs of
-// a run.
+// Records the inputs of a run: the files read as data, including those that other files name, and the parts of them
+// that are ignored.
 //
 // Code that reads a data file (TOML, CSV, meshes, voxels, pictures) calls `noteInput`, which costs a branch if there is
 // no log. Threads: `noteInput` and `noteSearch` are safe from any.
@@ -21,11 +21,11 @@ class DUSTBENCH_API InputLog {
     InputLog(const InputLog&) = delete;
     InputLog& operator=(const InputLog&) = delete;
 
-    /// So far, as absolute paths, each once, sorted.
+    /// The files so far, as absolute paths, each once, sorted.
     [[nodiscard]] std::vector<std::filesystem::path> files() const;
-    /// Likewise what was looked for: another set of files may be there tomorrow.
+    /// The searches so far, likewise: they may find other files next time.
     [[nodiscard]] std::vector<std::filesystem::path> searches() const;
-    /// What of each file nothing uses, in the file's order: `array 'material' at cells`.
+    /// The unused parts of each file, in the file's order: `array 'material' at cells`.
     [[nodiscard]] std::map<std::filesystem::path, std::vector<std::string>> ignored() const;
 
  private:
@@ -38,10 +38,10 @@ class DUSTBENCH_API InputLog {
 
 /// Throws InputError for a name that is not UTF-8.
 DUSTBENCH_API void noteInput(const std::filesystem::path& file);
-/// A pattern whose files were taken, or a file that was not there and was taken from elsewhere.
+/// Notes a pattern whose files were read, or a file that was missing here and found elsewhere.
 DUSTBENCH_API void noteSearch(const std::filesystem::path& path);
 
-/// Parts of a file that the reader passes over, though they may matter to who wrote them: names as they stand in it.
+/// Notes parts of a file that the reader skips but that may matter to the user, by their names in the file.
 DUSTBENCH_API void noteIgnored(const std::filesystem::path& file, const std::vector<std::string>& parts);
 
 }  // namespace dustbench::files

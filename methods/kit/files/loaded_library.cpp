@@ -9,14 +9,14 @@ namespace dustbench::files {
 namespace fs = std::filesystem;
 namespace {
 
-/// Of the library or the program that holds this code.
+/// Path of the library or the program that contains this code.
 fs::path ownFile() {
     Dl_info info{};
     void* loaded = nullptr;
     if (dladdr1(reinterpret_cast<const void*>(&ownFile), &info, &loaded, RTLD_DL_LINKMAP) == 0)
         throw std::runtime_error("cannot find the folder of dustbench's libraries");
     const std::string name = static_cast<const link_map*>(loaded)->l_name;
-    return name.empty() ? fs::read_symlink("/proc/self/exe") : fs::canonical(name);  // the program has no name there
+    return name.empty() ? fs::read_symlink("/proc/self/exe") : fs::canonical(name);  // the program's name is empty
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What stands beside the library or the program that holds the kit: libraries that are loaded on first use, because
-// linking them would slow down every start, and programs of the kit.
+// Finds files next to the library or the program that contains the kit: programs, and libraries that are loaded on
+// first use because linking them would slow down every start.
 #pragma once
 
 #include <filesystem>
@@ -7,11 +7,11 @@
 
 namespace dustbench::files {
 
-/// The file `name` there, which need not exist.
+/// The path of the file `name` in that folder. The file need not exist.
 [[nodiscard]] std::filesystem::path besideKit(const std::string& name);
 
-/// The address of `function` in `lib<name>.so` beside the kit. The library is never unloaded. `what` is for
-/// messages: `pictures`. Throws std::runtime_error if either is missing.
+/// The address of `function` in `lib<name>.so` next to the kit. The library is never unloaded. `what` names the
+/// purpose in messages: `pictures`. Throws std::runtime_error if either is missing.
 [[nodiscard]] void* functionOf(const std::string& name, const std::string& function, const std::string& what);
 
 }  // namespace dustbench::files

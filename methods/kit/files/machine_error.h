@@ -1,5 +1,5 @@
-// What the machine lacks: a full disk, a quota, too many open files, no more memory. It is a fault neither of the input
-// nor of what is measured.
+// Errors due to a lack of resources: a full disk, a quota, too many open files, no memory. Neither the input nor the
+// measured method is at fault.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace dustbench::files {
 
-/// The message is one line: what could not be done, and why. The command ends with exit code 2 (`aborted`) and goes on
-/// when it is called again; what it was writing is gone.
+/// The message is one line: the failed action and the reason. The command ends with exit code 2 (`aborted`) and can be
+/// called again to continue; partial output is removed.
 class DUSTBENCH_API MachineError : public std::runtime_error {
  public:
     using std::runtime_error::runtime_error;
@@ -18,15 +18,15 @@ class DUSTBENCH_API MachineError : public std::runtime_error {
     ~MachineError() override;
 };
 
-/// Begins the message where memory ran out.
+/// Start of the message if memory ran out.
 inline constexpr const char* outOfMemory = "out of memory";
 
-/// Whether an error number says so: ENOSPC, EDQUOT, EIO, EFBIG, EMFILE, ENFILE, ENOMEM.
+/// True for error numbers of this kind: ENOSPC, EDQUOT, EIO, EFBIG, EMFILE, ENFILE, ENOMEM.
 [[nodiscard]] DUSTBENCH_API bool isOfMachine(int error);
-/// Those of them that say nothing of the file that is read: all but EIO, which is damage of that file.
+/// The same without EIO, which means that the file itself is damaged.
 [[nodiscard]] DUSTBENCH_API bool isShortage(int error);
 
-/// `output 'a/b' cannot be written: No space left on device`: MachineError if the error number says so, else
+/// `output 'a/b' cannot be written: No space left on device`: throws MachineError if isOfMachine(error), otherwise
 /// InputError.
 [[noreturn]] DUSTBENCH_API void failWriting(const std::filesystem::path& path, int error);
 

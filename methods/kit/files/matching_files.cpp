@@ -28,7 +28,7 @@ std::string_view takeDigits(std::string_view& text) {
     return digits;
 }
 
-/// By name, runs of digits by their number; names that differ in leading zeros alone, letter by letter.
+/// Orders by name, with runs of digits as numbers. Names that differ only in leading zeros are compared as text.
 bool isBefore(const fs::path& a, const fs::path& b) {
     const std::string nameA = a.filename().string(), nameB = b.filename().string();
     std::string_view restA = nameA, restB = nameB;
@@ -67,7 +67,7 @@ std::vector<fs::path> foundFiles(const fs::path& path) {
 }
 
 std::string unevenStep(const std::vector<fs::path>& files) {
-    std::vector<std::vector<double>> numbers;  // of each name
+    std::vector<std::vector<double>> numbers;  // per name
     for (const fs::path& file : files) {
         const std::string name = file.filename().string();
         std::vector<double>& ofName = numbers.emplace_back();
@@ -84,7 +84,7 @@ std::string unevenStep(const std::vector<fs::path>& files) {
         column.reserve(numbers.size());
         for (const std::vector<double>& ofName : numbers) column.push_back(ofName[place]);
         if (std::ranges::all_of(column, [&column](double number) { return number == column.front(); })) continue;
-        if (!counted.empty()) return "";  // several numbers count
+        if (!counted.empty()) return "";  // more than one number changes
         counted = std::move(column);
     }
     for (std::size_t i = 2; i < counted.size(); ++i)

@@ -1,4 +1,4 @@
-// The files that a path with a `*` stands for.
+// Finds the files that match a path with a `*`.
 #pragma once
 
 #include <filesystem>
@@ -7,18 +7,18 @@
 
 namespace dustbench::files {
 
-/// True if the path's last part has a `*`.
+/// True if the last part of the path contains a `*`.
 [[nodiscard]] DUSTBENCH_API bool isPattern(const std::filesystem::path& path);
 
-/// What a path stands for now: the files that its pattern matches, sorted by name, where numbers count as numbers (8
-/// before 10); without a `*` itself, if it is a file. May be empty.
+/// The files that match a pattern at this moment, sorted by name, with numbers in numerical order (8 before 10). A path
+/// without a `*` yields itself if it is a file. May be empty.
 [[nodiscard]] DUSTBENCH_API std::vector<std::filesystem::path> foundFiles(const std::filesystem::path& path);
 
-/// The same, noted as inputs, as is the pattern. Throws InputError if there is none.
+/// The same; notes the files and the pattern as inputs. Throws InputError if there are none.
 [[nodiscard]] DUSTBENCH_API std::vector<std::filesystem::path> matchingFiles(const std::filesystem::path& pattern);
 
-/// Of files whose names differ in one number: a clause that names the first two between which the number takes another
-/// step than between the first two of all, as where a file is missing; empty if the steps are even, or cannot be told.
+/// For files whose names differ in one number: a clause that names the first two files between which the step differs
+/// from the first step, as when a file is missing. Empty if the steps are even or cannot be determined.
 [[nodiscard]] DUSTBENCH_API std::string unevenStep(const std::vector<std::filesystem::path>& files);
 
 }  // namespace dustbench::files

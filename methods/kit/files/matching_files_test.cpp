@@ -39,7 +39,7 @@ TEST(MatchingFiles, AStepThatIsNotEvenIsSaid) {
               "the numbers in the names step by 1, and by 2 from 'take2_009.vdb' to 'take2_011.vdb'");
     EXPECT_EQ(unevenStep({"s_1.vti", "s_01.vti", "s_2.vti"}),
               "the numbers in the names step by 0, and by 1 from 's_01.vti' to 's_2.vti'");
-    // Which number counts cannot be told.
+    // It is not clear which number counts.
     EXPECT_EQ(unevenStep({"a1_2.vti", "a2_3.vti", "a4_9.vti"}), "");
     EXPECT_EQ(unevenStep({"a.vti", "b.vti", "d.vti"}), "");
     EXPECT_EQ(unevenStep({}), "");

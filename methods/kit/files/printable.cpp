@@ -39,7 +39,7 @@ bool isHarmless(std::uint32_t code) {
     return !isControl && !turns;
 }
 
-/// What stands for the letter on the terminal.
+/// How the letter appears on the terminal.
 std::string shown(std::string_view letter, std::uint32_t code) {
     if (code == '\n' || code == '\t' || code == '\r') return " ";
     if (code != 0 && isHarmless(code)) return std::string(letter);
@@ -53,7 +53,7 @@ std::string shown(std::string_view letter, std::uint32_t code) {
 
 std::string printable(std::string_view text, std::size_t maximumBytes) {
     std::string line;
-    std::size_t fits = 0;  // bytes of the line that leave room for the mark
+    std::size_t fits = 0;  // bytes of the line that leave space for the ellipsis
     while (!text.empty()) {
         const Letter letter = decode(text);
         const std::string_view bytes = text.substr(0, letter.bytes == 0 ? 1 : letter.bytes);

@@ -96,7 +96,7 @@ class NestingScan {
             }
             if (text_[at_] == '\\' && quote == '"' && at_ + 1 < text_.size()) ++at_;
             if (text_[at_] != '\n') continue;
-            if (end.size() == 1) return;  // not valid: a line ends it
+            if (end.size() == 1) return;  // invalid: the line end terminates the string
             ++line_;
         }
     }
@@ -105,7 +105,7 @@ class NestingScan {
     std::size_t at_ = 0, line_ = 1;
     std::vector<int> open_;  ///< the depth within each open bracket
     int header_ = 0;         ///< levels of the table that the last header opened
-    int parts_ = 0;          ///< dots of the key before the place
+    int parts_ = 0;          ///< dots of the key so far
     bool startsLine_ = true, isHeader_ = false, isValue_ = false;
 };
 

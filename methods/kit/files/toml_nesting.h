@@ -1,4 +1,4 @@
-// How deeply a TOML text nests, found before the text is parsed: the parser recurses, and so does what it returns.
+// Determines how deeply a TOML text nests before it is parsed, because the parser and its result recurse.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +6,8 @@
 
 namespace dustbench::files {
 
-/// The line on which tables, arrays and dotted keys first nest more than `levels` deep; 0: nowhere. Text that is not
-/// valid TOML gives any answer.
+/// The line on which tables, arrays and dotted keys first nest more than `levels` deep; 0 if there is none. For text
+/// that is not valid TOML, the result is undefined.
 [[nodiscard]] std::size_t tooDeepLine(std::string_view text, int levels);
 
 }  // namespace dustbench::files

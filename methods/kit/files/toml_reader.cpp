@@ -24,7 +24,7 @@ struct TomlReader::State {
     std::string file;
     std::string path;  ///< path of the table within the document, for messages
     std::set<std::string, std::less<>> known;
-    std::set<std::string, std::less<>> asked;  ///< looked for and not read: known too, if it is not there
+    std::set<std::string, std::less<>> asked;  ///< looked for but not read; known even if missing
 };
 
 namespace {

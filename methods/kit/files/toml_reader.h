@@ -1,6 +1,6 @@
 // Reads TOML files and reports precise errors: file, line, key, the value received and the value expected.
 //
-// The underlying library is not included here, so that few files pay for its compile time.
+// The TOML library is not included here, so that only a few files pay for its compile time.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@
 
 namespace dustbench::files {
 
-/// One table of a TOML file. `finish` rejects every key that was not read, and suggests the nearest of those that were
-/// read or looked for with `has`. All members throw InputError, `scenes/flat.toml:12: key 'wind' … got …, expected …`.
+/// One table of a TOML file. `finish` rejects every key that was not read and suggests the nearest key that was read
+/// or looked for with `has`. All members throw InputError, `scenes/flat.toml:12: key 'wind' … got …, expected …`.
 class DUSTBENCH_API TomlReader {
  public:
-    /// Limits: limits.h, for the file's length and its depth.
+    /// Limits on length and depth: limits.h.
     static TomlReader parseFile(const std::filesystem::path& file);
     /// `name` is the file name used in messages.
     static TomlReader parseText(std::string_view text, std::string name);

@@ -1,4 +1,4 @@
-// Writes values of TOML.
+// Writes TOML values.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace dustbench::files {
 
-/// The text as a basic string, quoted and escaped.
+/// The text as a TOML basic string, quoted and escaped.
 [[nodiscard]] DUSTBENCH_API std::string tomlText(std::string_view text);
 
 }  // namespace dustbench::files

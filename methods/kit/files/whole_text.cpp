@@ -16,7 +16,7 @@
 namespace dustbench::files {
 namespace {
 
-/// Throws MachineError if the file is not what is wrong.
+/// Throws MachineError if the cause is the machine, not the file.
 std::string systemReason(const std::filesystem::path& file) {
     const std::string reason = fmt::format("cannot be read: {}", std::generic_category().message(errno));
     if (isShortage(errno)) throw MachineError(fmt::format("{} {}", file.string(), reason));
@@ -33,7 +33,7 @@ std::string kindOf(mode_t mode) {
     return "is a device, allowed: regular files only";
 }
 
-/// Owns: an open file. A pipe is opened without waiting for its writer.
+/// Owns: an open file. Opening a pipe does not wait for its writer.
 class OpenFile {
  public:
     explicit OpenFile(const std::filesystem::path& file)
@@ -71,7 +71,7 @@ class OpenFile {
 }  // namespace
 
 std::string refusalOf(const std::filesystem::path& file, std::uintmax_t maximumBytes) {
-    // Some devices act on being opened, so the kind is asked for first.
+    // Opening some devices has side effects, so check the kind first.
     struct stat facts {};
     if (stat(file.c_str(), &facts) != 0) return systemReason(file);
     if (!S_ISREG(facts.st_mode)) return kindOf(facts.st_mode);

@@ -1,7 +1,7 @@
 // Reads a regular file into memory, within a limit (limits.h).
 //
-// A pipe, a device or a folder is refused and never waited for. What is at most `maximumBytes` long is decided before
-// anything is allocated, and again while reading, because files in /proc say that they are empty.
+// Refuses pipes, devices and folders without waiting for them. The limit `maximumBytes` is checked before anything is
+// allocated and again while reading, because files in /proc report a size of 0.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ namespace dustbench::files {
 [[nodiscard]] DUSTBENCH_API std::string refusalOf(const std::filesystem::path& file,
                                                   std::uintmax_t maximumBytes = limits::textBytes);
 
-/// `expected` ends the message: `a TOML file`. Throws InputError with the file and the reason; as refusalOf,
-/// MachineError if it is the machine that cannot read it.
+/// `expected` ends the message: `a TOML file`. Throws InputError with the file and the reason, or MachineError as
+/// refusalOf does.
 [[nodiscard]] DUSTBENCH_API std::string wholeText(const std::filesystem::path& file, std::string_view expected,
                                                   std::uintmax_t maximumBytes = limits::textBytes);
 

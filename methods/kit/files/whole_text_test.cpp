@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Readers of text, each by its own way in.
+/// The different ways to read a text.
 std::vector<std::string> refusals(const std::filesystem::path& file) {
     return {inputError([&] { (void)wholeText(file, "a text"); }), inputError([&] { (void)CsvTable::parseFile(file); }),
             inputError([&] { (void)TomlReader::parseFile(file); })};
@@ -34,7 +34,7 @@ TEST(WholeText, TakesRegularFilesAlone) {
         for (const std::string& message : refusals(folder.path() / name)) EXPECT_THAT(message, HasSubstr(reason));
     for (const std::string& message : refusals("/dev/zero")) EXPECT_THAT(message, HasSubstr("/dev/zero: is a device"));
     EXPECT_EQ(wholeText(folder.write("a", std::string("a\0b", 3)), "a text"), std::string("a\0b", 3));
-    EXPECT_FALSE(wholeText("/proc/self/status", "a text").empty());  // says that it is empty
+    EXPECT_FALSE(wholeText("/proc/self/status", "a text").empty());  // its reported size is 0
 }
 
 TEST(WholeText, NamesTheLimitBeforeItReads) {

@@ -23,11 +23,11 @@ std::vector<double> logarithmsOf(std::vector<double> values) {
     return values;
 }
 
-/// How many of `count` sorted values lie below the median's interval, and as many above it: the greatest k with
-/// P(B ≤ k) ≤ 0.025, B binomial with a chance of one half.
+/// How many of `count` sorted values lie below the median's interval, and as many above it: the largest k with
+/// P(B ≤ k) ≤ 0.025, where B is binomial with p = ½.
 std::size_t valuesBelowTheInterval(std::size_t count) {
     const auto n = static_cast<double>(count);
-    double chance = std::pow(0.5, n), sum = chance;  // of B = 0, of B <= below
+    double chance = std::pow(0.5, n), sum = chance;  // P(B = 0), P(B <= below)
     std::size_t below = 0;
     for (std::size_t next = 1; 2 * next < count; ++next) {
         chance *= (n - static_cast<double>(next) + 1) / static_cast<double>(next);

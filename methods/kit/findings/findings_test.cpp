@@ -12,7 +12,7 @@ TEST(Findings, MeanHasStudentsInterval) {
     const Finding found = meanOf("m", {1, 2, 3, 4, 5});
     EXPECT_EQ(found.quantity, "m");
     EXPECT_DOUBLE_EQ(found.value, 3);
-    const double half = 2.776445 * std::sqrt(2.5 / 5);  // t(0.975; 4) of the tables
+    const double half = 2.776445 * std::sqrt(2.5 / 5);  // t(0.975; 4), from tables
     EXPECT_NEAR(found.low, 3 - half, 1e-6);
     EXPECT_NEAR(found.high, 3 + half, 1e-6);
     EXPECT_EQ(found.samples, 5);
@@ -32,7 +32,7 @@ TEST(Findings, ExponentIsThatOfAPowerAndItsIntervalHoldsIt) {
 TEST(Findings, MedianHasTheIntervalOfTheSignTest) {
     EXPECT_EQ(medianOf("m", {3, 1, 2}).value, 2);
     EXPECT_EQ(medianOf("m", {3, 1, 2}).high, 3);
-    // By tables of the sign test: how many of n values lie below the interval.
+    // From tables of the sign test: how many of n values lie below the interval.
     for (const auto& [n, below] : {std::pair{1, 0}, {8, 0}, {9, 1}, {12, 2}, {15, 3}, {25, 7}}) {
         std::vector<double> values(static_cast<std::size_t>(n));
         std::iota(values.rbegin(), values.rend(), 0);

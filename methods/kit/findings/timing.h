@@ -7,7 +7,7 @@
 
 namespace dustbench::findings {
 
-/// Returns the calling thread's CPU time for `work`: other programs disturb it less than the wall clock.
+/// Returns the calling thread's CPU time for `work`, which other programs disturb less than wall-clock time.
 template <typename Work>
 [[nodiscard]] double secondsOf(const Work& work) {
     const auto now = [] {

@@ -78,7 +78,7 @@ std::string whyPreferred(std::span<const Adapter> adapters, std::size_t preferre
     std::vector<Adapter> failed;
     std::ranges::copy_if(adapters, std::back_inserter(failed),
                          [](const Adapter& each) { return isHardwareDevice(each) && !each.problem.empty(); });
-    const std::string problems = failed.empty() ? "" : " that gives OpenGL 4.5 (" + problemsOf(failed) + ")";
+    const std::string problems = failed.empty() ? "" : " that provides OpenGL 4.5 (" + problemsOf(failed) + ")";
     if (isHardwareDevice(adapters[preferred])) return "first hardware adapter" + problems;
     return "no hardware adapter" + problems + ": " +
            (adapters[preferred].platform == Platform::surfaceless ? "surfaceless" : "software device");
@@ -104,9 +104,9 @@ std::size_t findAdapter(std::span<const Adapter> adapters, std::string_view aske
     }
     if (equal.size() == 1) return equal.front();
     if (found.size() == 1) return found.front();
-    throw InputError(
-        "--adapter: got '" + std::string(asked) + "', which " + (found.empty() ? "is none" : "could be several") +
-        " of this machine's adapters; allowed: the index or a part of the name of one of " + listed(adapters));
+    throw InputError("--adapter: got '" + std::string(asked) + "', which " +
+                     (found.empty() ? "matches none" : "matches several") +
+                     " of this machine's adapters; allowed: an index or part of a name: " + listed(adapters));
 }
 
 std::string problemsOf(std::span<const Adapter> adapters) {

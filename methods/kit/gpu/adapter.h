@@ -1,6 +1,6 @@
 // An OpenGL adapter offered by this machine's EGL, and the rules that choose one.
 //
-// Pure: egl_context.h queries EGL.
+// Pure functions; egl_context.h queries EGL.
 #pragma once
 
 #include <cstddef>
@@ -39,7 +39,7 @@ struct Adapter {
 /// that it finds, since a device that EGL calls hardware may draw on the CPU. Empty if every adapter has a problem.
 [[nodiscard]] std::optional<std::size_t> takePreferred(std::span<Adapter> adapters,
                                                        const std::function<void(Adapter&)>& open);
-/// Short reason for the choice of `preferredAdapter`, with the hardware adapters that could not be used.
+/// Short reason for the choice of `preferredAdapter`, with the hardware adapters that failed.
 [[nodiscard]] std::string whyPreferred(std::span<const Adapter> adapters, std::size_t preferred);
 
 /// The adapter with the requested index, if it exists.

@@ -59,7 +59,7 @@ TEST(Adapter, WhatIsCalledHardwareAndDrawnByTheCpuIsNotTakenForHardware) {
     const auto open = [&](Adapter& adapter) {
         tried.push_back(adapter.name);
         if (adapter.name == "no driver") adapter.kind = Kind::software;
-        if (adapter.name == "old") adapter.problem = "gives no OpenGL 4.5";
+        if (adapter.name == "old") adapter.problem = "provides no OpenGL 4.5";
     };
     EXPECT_EQ(takePreferred(adapters, open), 2u);
     EXPECT_THAT(tried, testing::ElementsAre("no driver", "old", "gpu"));
@@ -75,9 +75,9 @@ TEST(Adapter, WhatIsCalledHardwareAndDrawnByTheCpuIsNotTakenForHardware) {
 TEST(Adapter, SaysWhichHardwareCouldNotBeTaken) {
     const Adapter broken = device("gpu", Kind::hardware, "has no display"), gpu = device("other", Kind::hardware);
     EXPECT_EQ(taken(machine({broken, gpu})),
-              "other, first hardware adapter that gives OpenGL 4.5 (gpu has no display)");
+              "other, first hardware adapter that provides OpenGL 4.5 (gpu has no display)");
     EXPECT_EQ(taken(machine({broken})),
-              "surfaceless, no hardware adapter that gives OpenGL 4.5 (gpu has no display): surfaceless");
+              "surfaceless, no hardware adapter that provides OpenGL 4.5 (gpu has no display): surfaceless");
 }
 
 TEST(Adapter, IsFoundByIndexOrByAPartOfItsNameThatNoOtherHas) {

@@ -15,7 +15,7 @@ CurrentContext::CurrentContext()
 
 void CurrentContext::makeCurrent() const {
     if (!eglMakeCurrent(display_, drawn_, read_, context_))
-        throw std::runtime_error("EGL: an OpenGL context cannot be made current again");
+        throw std::runtime_error("EGL: cannot make an OpenGL context current again");
 }
 
 bool isContextLost() {

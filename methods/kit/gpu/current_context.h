@@ -1,6 +1,6 @@
-// The OpenGL context that is current: to come back to it after another one, and to see whether it is lost.
+// The current OpenGL context: restores it after another one was used, and detects its loss.
 //
-// Threads: the one that it is current on.
+// Threads: the context's.
 #pragma once
 
 namespace dustbench::gpu {
@@ -9,14 +9,14 @@ namespace dustbench::gpu {
 class DUSTBENCH_API CurrentContext {
  public:
     CurrentContext();
-    /// Throws std::runtime_error if EGL refuses.
+    /// Throws std::runtime_error on failure.
     void makeCurrent() const;
 
  private:
     void *display_, *drawn_, *read_, *context_;
 };
 
-/// The driver has reset the GPU, and all that was on it is gone. Known only of contexts that notify of it.
+/// True if the driver has reset the GPU and its memory is lost. Works only for contexts that report resets.
 [[nodiscard]] DUSTBENCH_API bool isContextLost();
 
 }  // namespace dustbench::gpu

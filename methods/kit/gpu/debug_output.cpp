@@ -28,7 +28,7 @@ void requireAllocated(std::string_view label, std::size_t bytes) {
     if (glGetError() == GL_NO_ERROR) return;
     forgetMessage();
     throw InputError("GPU: '" + std::string(label) + "' of " + std::to_string(bytes) +
-                     " bytes cannot be allocated; smaller pictures, grids or numbers of particles need less");
+                     " bytes cannot be allocated; use smaller pictures or grids, or fewer particles");
 }
 
 #ifdef DUSTBENCH_CHECKED

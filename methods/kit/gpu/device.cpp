@@ -28,7 +28,7 @@ struct Opened {
     std::string why;
 };
 
-/// Drivers do not say that memory ran out. Throws MachineError if the caller left them little of it.
+/// Drivers do not report a lack of memory. Throws MachineError if the process's limit leaves too little.
 void requireMemory() {
     constexpr rlim_t enough = rlim_t{4} << 30;
     rlimit allowed{};
@@ -46,7 +46,7 @@ Opened openAsked(const std::string& asked) {
     auto context = EglContext::open(adapter);
     if (!context) requireMemory();
     if (!context)
-        throw InputError("--adapter " + asked + ": OpenGL 4.5 is needed, and " + problemsOf(std::vector{adapter}));
+        throw InputError("--adapter " + asked + ": OpenGL 4.5 is needed, but " + problemsOf(std::vector{adapter}));
     return {std::move(context), adapter, "--adapter " + asked};
 }
 
@@ -59,8 +59,8 @@ Opened openPreferred() {
     });
     if (taken) return {std::move(context), adapters[*taken], whyPreferred(adapters, *taken)};
     requireMemory();
-    throw InputError("OpenGL 4.5 is needed and EGL gives none (" +
-                     (adapters.empty() ? "neither a device nor surfaceless is offered" : problemsOf(adapters)) +
+    throw InputError("OpenGL 4.5 is needed, but EGL does not provide it (" +
+                     (adapters.empty() ? "it offers neither a device nor surfaceless" : problemsOf(adapters)) +
                      "); install Mesa's DRI drivers (libgl1-mesa-dri) or a GPU driver");
 }
 
@@ -88,11 +88,11 @@ Device::Device() {
 
 Device::Device(Adopted) {
     const std::string version = textOf(GL_VERSION);
-    if (version.empty()) throw InputError("OpenGL 4.5 is needed, and no context is current");
+    if (version.empty()) throw InputError("OpenGL 4.5 is needed, but no context is current");
     GLint profile = 0;
     if (epoxy_is_desktop_gl() && epoxy_gl_version() >= 45) glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
     if ((profile & GL_CONTEXT_CORE_PROFILE_BIT) == 0)
-        throw InputError("OpenGL 4.5 core is needed, and the current context is '" + version + "'" +
+        throw InputError("OpenGL 4.5 core is needed, but the current context is '" + version + "'" +
                          (profile != 0 ? ", not of the core profile" : ""));
     info_.platform = "adopted";
     info_.adapterWhy = "adopted the current context";

@@ -67,8 +67,8 @@ class DUSTBENCH_API Device {
     friend class LedgerScope;
 };
 
-/// Books all objects made in the rest of the block on another ledger, which must outlive them: one ledger for each user
-/// of a device. Scopes nest.
+/// Books all objects made in the rest of the block on another ledger, which must outlive them: one ledger per user of a
+/// device. Scopes nest.
 class [[nodiscard]] LedgerScope {
  public:
     LedgerScope(Device& device, MemoryLedger& ledger)

@@ -1,4 +1,4 @@
-// Fixed-function state and draw calls. Every draw sets all of its state, so that none leaks into the next pass.
+// Fixed-function state and draw calls. Every draw sets all of its state, so that no state leaks into the next pass.
 #pragma once
 
 #include "methods/kit/gpu/program.h"

@@ -116,9 +116,9 @@ std::string EglContext::connect(const Adapter& adapter) {
 #endif
                                            EGL_NONE};
     context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
-    if (context_ == EGL_NO_CONTEXT) return "gives no OpenGL 4.5 core context: " + eglErrorText();
+    if (context_ == EGL_NO_CONTEXT) return "provides no OpenGL 4.5 core context: " + eglErrorText();
     if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
-        return "does not let a context be current without a surface: " + eglErrorText();
+        return "does not support contexts without a surface: " + eglErrorText();
     return "";
 }
 

@@ -1,6 +1,6 @@
 // An OpenGL 4.5 core context without a window, on one of the adapters that EGL offers.
 //
-// Owns: the context. Displays stay with the process, since other contexts may use them. Threads: the one that made it.
+// Owns: the context. Displays are never closed, since other contexts may use them. Threads: the one that made it.
 #pragma once
 
 #include <memory>

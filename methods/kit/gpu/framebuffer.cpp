@@ -21,7 +21,7 @@ Framebuffer::Framebuffer(Device&, std::string_view label, const Texture* colour,
 
 Framebuffer::Framebuffer(Device&, std::string_view label, std::span<const Texture* const> colours)
     : colours_(static_cast<int>(colours.size())) {
-    constexpr std::size_t maximum = 8;  // what every OpenGL 4.5 has
+    constexpr std::size_t maximum = 8;  // guaranteed by OpenGL 4.5
     if (colours.empty() || colours.size() > maximum)
         throw std::invalid_argument("framebuffer '" + std::string(label) + "': got " + std::to_string(colours.size()) +
                                     " colours, allowed: 1..8");
@@ -64,7 +64,7 @@ void Framebuffer::clearColour(float red, float green, float blue, float alpha) c
 
 void Framebuffer::clearDepth() const {
     const float farthest = 0;
-    glDepthMask(GL_TRUE);  // clears obey the depth mask
+    glDepthMask(GL_TRUE);  // clears respect the depth mask
     glClearNamedFramebufferfv(name_.get(), GL_DEPTH, 0, &farthest);
 }
 

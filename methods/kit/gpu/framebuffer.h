@@ -23,7 +23,7 @@ class DUSTBENCH_API Framebuffer {
 
     /// Directs subsequent draws to this framebuffer, over its whole area.
     void bind() const;
-    /// All of its colours.
+    /// Clears all colours.
     void clearColour(float red, float green, float blue, float alpha) const;
     /// Clears to 0, the far end of the reversed depth range.
     void clearDepth() const;

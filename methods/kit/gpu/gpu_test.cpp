@@ -265,7 +265,7 @@ TEST(Fence, WaitsForTheWorkBeforeIt) {
     Fence fence = Fence::afterQueuedWork();
     fence.wait();
     EXPECT_TRUE(query.milliseconds().has_value());
-    fence.wait();  // no marker any more: returns at once
+    fence.wait();  // no marker left: returns at once
 }
 
 TEST(TimerQuery, SelfTestComesToAnAnswer) {

@@ -1,4 +1,4 @@
-// The render target of a method: its own colour over the opaque scene's depth.
+// The render target of a method: a colour buffer over the opaque scene's depth.
 //
 // Units: depth is reversed (contract/view.h). Frame: image rows from the bottom, as in OpenGL.
 #pragma once

@@ -31,7 +31,7 @@ class DUSTBENCH_API Program {
     Program(Device& device, std::string_view label, std::span<const ShaderFile> files,
             const std::map<std::string, std::string>& definitions);
 
-    /// Sets a uniform. Throws std::invalid_argument if the program has none of that name.
+    /// Sets a uniform. Throws std::invalid_argument if the program has no uniform of that name.
     void set(std::string_view uniform, float value);
     void set(std::string_view uniform, int value);
     void set(std::string_view uniform, glm::ivec3 value);

@@ -33,9 +33,9 @@ class DUSTBENCH_API Texture {
     /// Generates mipmaps if the filter needs them. Throws std::invalid_argument for a wrong number of values.
     void write(std::span<const std::uint8_t> values);
     void write(std::span<const float> values);
-    /// Writes the texels from (column, row) on, `width` × `height` of them, of a 2D texture of 8-bit channels. Mipmaps
-    /// stay as they are until `makeMipmaps`. Throws std::invalid_argument for a wrong number of values, or if the
-    /// texels lie outside.
+    /// Writes `width` × `height` texels of a 2D texture of 8-bit channels, starting at (column, row). Mipmaps stay
+    /// unchanged until `makeMipmaps`. Throws std::invalid_argument for a wrong number of values, or if the texels lie
+    /// outside of the texture.
     void writeRectangle(int column, int row, int width, int height, std::span<const std::uint8_t> values);
     void makeMipmaps();
     /// Writes one layer of an array.

@@ -37,7 +37,7 @@ template <typename Vector>
     return x > bound ? x : bound;
 }
 
-/// `table[index]` lane by lane. An index counts from 0 and wraps at the number of lanes.
+/// `table[index]` for each lane. Indices count from 0 and wrap at the number of lanes.
 template <typename Vector, typename Index>
 [[gnu::always_inline]] inline Vector lookUp(const Vector& table, const Index& index) {
 #if defined(__clang__)  // clang-tidy; its __builtin_shufflevector takes constants only
@@ -49,7 +49,7 @@ template <typename Vector, typename Index>
     return __builtin_shuffle(table, index);
 #endif
 }
-/// The same in two tables, the second behind the first; an index wraps at the lanes of both.
+/// The same for two consecutive tables; an index wraps at the total number of lanes.
 template <typename Vector, typename Index>
 [[gnu::always_inline]] inline Vector lookUp(const Vector& first, const Vector& second, const Index& index) {
 #if defined(__clang__)

@@ -1,14 +1,14 @@
-// What two programs must have in common before objects of C++ may cross from one to the other: compiler, standard
+// Build properties that two programs must share before C++ objects may pass between them: compiler, standard
 // library, instruction set, GLM's configuration, floating-point rules, checks.
 //
-// A text of `name=value;`, written by the preprocessor where it is included, so that it tells how this very code is
-// compiled. What is not defined has its own name as value.
+// A text of `name=value;` pairs, written by the preprocessor at the point of inclusion, so that it describes how that
+// code is compiled. A macro that is not defined has its own name as value.
 #pragma once
 
 #include <glm/glm.hpp>
 #include <string>
 
-// NOLINTBEGIN(cppcoreguidelines-macro-usage): names of macros, and what they stand for, are the preprocessor's alone
+// NOLINTBEGIN(cppcoreguidelines-macro-usage): only the preprocessor knows macros' names and values
 #define DUSTBENCH_EXPANDED(...) #__VA_ARGS__
 #define DUSTBENCH_VALUE(...) DUSTBENCH_EXPANDED(__VA_ARGS__)
 #define DUSTBENCH_FACT(name) #name "=" DUSTBENCH_VALUE(name) ";"
@@ -17,14 +17,14 @@
 namespace dustbench::library {
 namespace {
 
-/// Whether a·b + c is rounded once here: what -ffp-contract decides, and no macro tells.
+/// True if a·b + c is rounded once here. -ffp-contract decides this, but sets no macro.
 [[nodiscard]] inline bool contractsProducts() {
     const volatile float a = 1 + 0x1p-12f, c = -1 - 0x1p-11f;
     const float x = a, z = c;
-    return x * x + z != 0;  // a² = 1 + 2⁻¹¹ + 2⁻²⁴ loses its last term if it is rounded
+    return x * x + z != 0;  // a² = 1 + 2⁻¹¹ + 2⁻²⁴ loses its last term when rounded
 }
 
-/// Of the code that includes this header.
+/// The fingerprint of the code that includes this header.
 [[nodiscard]] inline std::string buildFingerprint() {
     std::string facts;
     for (const char* fact : {DUSTBENCH_FACT(__VERSION__),

@@ -90,7 +90,7 @@ double SunDepth::at(const glm::dvec3& position) const {
     if (puffs_.empty()) return 0;
     const glm::dvec3 place = position * frame_;
     const double u = place.x, v = place.y, w = place.z;
-    // No puff reaches beyond the edge; edge cells contribute only neglected depth.
+    // No puff extends beyond the edge; edge cells contribute only negligible depth.
     const std::size_t k = static_cast<std::size_t>(cell(v, 1)) * static_cast<std::size_t>(cells_.x) +
                           static_cast<std::size_t>(cell(u, 0));
     const maths::HalfErrorFunction& halfErf = maths::HalfErrorFunction::instance();

@@ -1,7 +1,7 @@
-// The optical depth between a point in a cloud and the sun, by the closed form, and what it does to the light of puffs.
+// The optical depth between a point in a cloud and the sun in closed form, for lighting puffs.
 //
-// Units: metres; depth has none. Frame: world. Owns: a grid over the plane perpendicular to the sun direction; each
-// cell lists the puffs that reach into it. Threads: const access from any.
+// Units: metres; depth is dimensionless. Frame: world. Owns: a grid over the plane perpendicular to the sun direction;
+// each cell lists the puffs that reach into it. Threads: const access from any.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,15 @@
 namespace dustbench::light {
 
 /// Orthonormal columns: two across the sun's direction, and the direction itself. `toSun` need not be a unit vector.
-/// Throws std::invalid_argument where it has no direction.
+/// Throws std::invalid_argument if it is zero or not finite.
 [[nodiscard]] DUSTBENCH_API glm::dmat3 sunFrame(const glm::dvec3& toSun);
 
 class DUSTBENCH_API SunDepth {
  public:
-    /// τ = −ln(1 − α)·`opticalDepthShare`; a puff counts out to where its depth falls to `neglected`. One with a
-    /// number that is not finite does not count. Throws as sunFrame() does.
+    /// τ = −ln(1 − α)·`opticalDepthShare`; a puff extends to where its depth falls to `neglected`. Puffs with values
+    /// that are not finite are ignored. Throws as sunFrame() does.
     SunDepth(const Puffs& store, const glm::dvec3& toSun, double opticalDepthShare, double neglected);
-    /// Of the puffs with these indices alone, which ascend.
+    /// Only the puffs with these indices, which must ascend.
     SunDepth(const Puffs& store, const glm::dvec3& toSun, double opticalDepthShare, double neglected,
              std::span<const std::uint32_t> indices);
 
@@ -30,7 +30,7 @@ class DUSTBENCH_API SunDepth {
     [[nodiscard]] double at(const glm::dvec3& position) const;
 
  private:
-    /// A puff in the sun's frame, as the loop wants it: 2^(logDepth − b²·scale)·½[1 + erf(along·inverseWidth)].
+    /// A puff in the sun's frame, prepared for the loop: 2^(logDepth − b²·scale)·½[1 + erf(along·inverseWidth)].
     struct Entry {
         double u, v, w;
         double logDepth, scale, inverseWidth;

@@ -1,7 +1,7 @@
-// Bézier curves over t in [0, 1]: cubic ones of scalars and vectors, and of any number of scalars.
+// Bézier curves over t in [0, 1]: cubic curves of scalars and vectors, and curves of any degree of scalars.
 //
 // Threads: pure. Source: Thesis, 4.4.3 (de Casteljau); Farin2002, ch. 4. Departs: uses (1 − t) for the printed weight
-// (N − t), except where named.
+// (N − t), unless noted.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ template <typename T>
     return interpolate(interpolate(p01, p12, t), interpolate(p12, p23, t), t);
 }
 
-/// The same of any number of points, one or more.
+/// The same for any number of points, at least one.
 [[nodiscard]] inline float bezier(std::span<const float> points, float t) {
     std::vector<float> left(points.begin(), points.end());
     for (std::size_t count = left.size() - 1; count > 0; --count)
@@ -52,7 +52,7 @@ template <typename T>
     return weights;
 }
 
-/// The same curve as c0 + c1·t + c2·t² + c3·t³: a third of the work if one curve is evaluated many times.
+/// The same curve as c0 + c1·t + c2·t² + c3·t³: a third of the work if a curve is evaluated many times.
 template <typename T>
 struct CubicPolynomial {
     T c0{}, c1{}, c2{}, c3{};

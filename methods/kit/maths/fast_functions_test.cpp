@@ -9,7 +9,7 @@ TEST(FastFunctions, PowerOfTwoEqualsTheLibrarysToElevenDigits) {
     double worst = 0;
     for (double x = -1000; x <= 1000; x += 0.00731) worst = std::max(worst, std::abs(powerOfTwo(x) / std::exp2(x) - 1));
     EXPECT_LT(worst, 1e-11);
-    EXPECT_GT(worst, 1e-13);  // or the comment that says 7e-12 is out of date
+    EXPECT_GT(worst, 1e-13);  // otherwise the comment with 7e-12 is out of date
     for (const double n : {-1000.0, -3.0, 0.0, 1.0, 64.0}) EXPECT_EQ(powerOfTwo(n), std::exp2(n));
 }
 

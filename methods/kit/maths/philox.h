@@ -1,5 +1,5 @@
-// Random numbers as a pure function of (seed, stream, serial, draw): stateless, so that any thread may compute any of
-// them.
+// Random numbers as a pure function of (seed, stream, serial, draw): stateless, so that any thread may compute any
+// number.
 // Philox4x32-10. Key: the seed's two halves. Counter: the serial's two halves, the stream and the draw. Two draws share
 // a counter only if all three agree.
 // Threads: pure. Source: Salmon2011, sections 3.3 and 5 (implementation: Random123).

@@ -1,7 +1,7 @@
 // Random points and directions from uniform numbers: the disc, the ball, the triangle, the cone, the sphere.
 //
 // Units: metres, turns and cosines as named. Threads: pure.
-// Source: Thesis, 4.2.3 (sphere), 4.2.4 (disc), 4.3.1 (random direction), 4.3.2 and 4.3.3 (cones). Departs: see each.
+// Source: Thesis, 4.2.3 (sphere), 4.2.4 (disc), 4.3.1 (random direction), 4.3.2 and 4.3.3 (cones). Departs: see below.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace dustbench::maths {
 
-/// `paper`: the formula as printed. `fixed`: a formula with the distribution that the text claims.
+/// `paper`: the formula as printed. `fixed`: a formula with the distribution that the paper states.
 enum class SamplingMode { paper, fixed };
 
 /// Uniform on the unit disc: r = √u, angle = v. Departs: no rejection, so that every point needs exactly two numbers.
@@ -108,7 +108,7 @@ template <typename CubePoint>
 }
 
 /// In the unit ball with both angles and the distance uniform: α ∈ [0, 2π), β ∈ [−π/2, π/2), d ∈ [0, 1). The thesis's
-/// source that is dense at the centre: its density goes as 1/(d²·cos β), so that it is dense about the poles too.
+/// source that is dense at the centre: its density is ∝ 1/(d²·cos β), so it is dense around the poles too.
 [[nodiscard]] inline glm::vec3 denseBallPoint(float u, float v, float w) {
     const float latitude = 0.5f * v - 0.25f;  // turns
     const float ring = w * cosineOfTurns(latitude);

@@ -35,7 +35,7 @@ void requireAvailable(std::string_view structure, std::size_t bytes) {
     const auto available = static_cast<std::size_t>(availableBytes());
     if (bytes <= available) return;
     throw InputError("not enough memory for the " + std::string(structure) + ": " + std::to_string(bytes) +
-                     " bytes more are needed, " + std::to_string(available) + " are available");
+                     " more bytes are needed, " + std::to_string(available) + " are available");
 }
 
 }  // namespace dustbench

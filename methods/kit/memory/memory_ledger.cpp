@@ -25,7 +25,7 @@ void* allocateLarge(const MemoryAccount& account, std::size_t bytes) {
     requireAvailable(account.structure(), bytes);
     const std::size_t offset = nextOffset();
     auto* const pages = static_cast<std::byte*>(::operator new (offset + bytes, std::align_val_t{largePage}));
-    madvise(pages, offset + bytes, MADV_HUGEPAGE);  // a hint: everything works without it
+    madvise(pages, offset + bytes, MADV_HUGEPAGE);  // only a hint
     return pages + offset;
 }
 

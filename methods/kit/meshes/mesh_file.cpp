@@ -42,7 +42,7 @@ Polygons readPolygons(const std::filesystem::path& file) {
                       : extension == ".stl" ? &readStl
                                             : nullptr;
     if (read == nullptr)
-        throw InputError(file.string() + ": unknown kind of mesh '" + extension + "', expected .obj, .ply or .stl");
+        throw InputError(file.string() + ": unknown mesh format '" + extension + "', expected .obj, .ply or .stl");
     const std::string text = files::wholeText(file, "a mesh", files::limits::geometryBytes);
     files::noteInput(file);
     Polygons mesh = read(text, file);
@@ -50,7 +50,7 @@ Polygons readPolygons(const std::filesystem::path& file) {
     return mesh;
 }
 
-/// Cuts polygons into n − 2 triangles each: a concave one by its ears, one without area into a fan.
+/// Cuts polygons into n − 2 triangles each: concave ones by ear clipping, ones without area into a fan.
 class Triangulator {
  public:
     explicit Triangulator(const Polygons& mesh) : mesh_(mesh) {}
@@ -93,7 +93,7 @@ vtkSmartPointer<vtkUnsignedCharArray> colourArray() {
     return colours;
 }
 
-/// The colour of a polygon goes to each of its triangles.
+/// Each triangle gets the colour of its polygon.
 void addTriangles(const Polygons& mesh, vtkPolyData& surface) {
     vtkNew<vtkCellArray> triangles;
     const auto colours = colourArray();
@@ -150,7 +150,7 @@ glm::vec3 linearColour(vtkUnsignedCharArray& colours, vtkIdType index) {
 
 constexpr const char* pointName = "point";
 
-/// Numbers the points, so that it is known which of them each vertex comes from.
+/// Numbers the points, so that the origin of each vertex is known later.
 void numberPoints(vtkPolyData& surface) {
     vtkNew<vtkIdTypeArray> numbers;
     numbers->SetName(pointName);
@@ -158,7 +158,7 @@ void numberPoints(vtkPolyData& surface) {
     surface.GetPointData()->AddArray(numbers);
 }
 
-/// `points`: gets the number of each vertex, if the surface's points are numbered.
+/// `points` receives the number of each vertex, if the surface's points are numbered.
 scene::Mesh convert(vtkPolyData& surface, const glm::vec3& colour, std::vector<std::size_t>* points = nullptr) {
     scene::Mesh mesh;
     auto* numbers = vtkIdTypeArray::SafeDownCast(surface.GetPointData()->GetArray(pointName));
@@ -190,7 +190,7 @@ scene::Mesh convert(vtkPolyData& surface, const glm::vec3& colour, std::vector<s
     return mesh;
 }
 
-/// With normals, which are computed where the file has none.
+/// With normals; computes them if the file has none.
 vtkSmartPointer<vtkPolyData> withNormals(vtkSmartPointer<vtkPolyData> surface) {
     if (surface->GetPointData()->GetNormals()) return surface;
     vtkNew<vtkPolyDataNormals> normals;
@@ -205,14 +205,13 @@ vtkSmartPointer<vtkPolyData> withNormals(vtkSmartPointer<vtkPolyData> surface) {
 void requireSamePolygons(const Polygons& rest, const std::filesystem::path& restFile, const Polygons& target,
                          const std::filesystem::path& targetFile) {
     if (target.positions.size() != rest.positions.size() || target.size() != rest.size())
-        throw InputError(fmt::format(
-            "{}: got {} points and {} faces, expected {} and {}, as {} has, whose target it is", targetFile.string(),
-            target.positions.size(), target.size(), rest.positions.size(), rest.size(), restFile.string()));
+        throw InputError(fmt::format("{}: got {} points and {} faces, expected {} and {} as in {}, its base mesh",
+                                     targetFile.string(), target.positions.size(), target.size(), rest.positions.size(),
+                                     rest.size(), restFile.string()));
     for (std::size_t face = 0; face < rest.size(); ++face)
         if (!std::ranges::equal(rest[face], target[face]))
-            throw InputError(
-                fmt::format("{}: face {} has other corners than in {}, whose target it is, expected the same",
-                            targetFile.string(), face + 1, restFile.string()));
+            throw InputError(fmt::format("{}: face {} has different corners than in {}, its base mesh",
+                                         targetFile.string(), face + 1, restFile.string()));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Reads triangle meshes from OBJ, PLY and STL files, all of a file or none of it
+// Reads triangle meshes from OBJ, PLY and STL files, either completely or not at all
 // (reports/decisions/0015-mesh-files.md).
 //
 // Units: as in the file. Colours: linear RGB.
@@ -14,11 +14,11 @@
 namespace dustbench::meshes {
 
 /// A polygon of n corners becomes n − 2 triangles. Computes missing normals, keeping creases above 35 degrees. Uses the
-/// vertex or face colours of a PLY file (8 bit, sRGB), else `colour`. Limits: kit/files/limits.h. Throws InputError
-/// with the file and the reason.
+/// vertex or face colours of a PLY file (8 bit, sRGB), otherwise `colour`. Limits: kit/files/limits.h. Throws
+/// InputError with the file and the reason.
 [[nodiscard]] DUSTBENCH_API scene::Mesh readMesh(const std::filesystem::path& file, const glm::vec3& colour);
 
-/// The same with morph targets: files with the same polygons whose points lie elsewhere. Throws InputError for others.
+/// The same with morph targets: files with the same polygons but different positions. Throws InputError for others.
 [[nodiscard]] DUSTBENCH_API MorphMesh readMorphMesh(const std::filesystem::path& file,
                                                     std::span<const std::filesystem::path> targets,
                                                     const glm::vec3& colour);

@@ -78,7 +78,7 @@ TEST(MeshFile, WhatNobodyUsesIsNoted) {
     const float corners[]{0, 0, 0, 1, 0, 0, 0, 1, 0};
     std::memcpy(&stl[84 + 12], corners, sizeof corners);
     EXPECT_THAT(ignoredOf("a.stl", stl), ElementsAre());
-    stl[84 + 48] = 31;  // red, as some programs keep it there
+    stl[84 + 48] = 31;  // red, where some programs store it
     EXPECT_THAT(ignoredOf("b.stl", stl), ElementsAre("attributes of triangles, such as colours"));
 }
 
@@ -176,7 +176,7 @@ TEST(MeshFile, SaysInOneLineWhyAMeshCannotBeRead) {
     EXPECT_THAT(refusal(sparse), HasSubstr("allowed: 1000 MB"));
 }
 
-/// All meshes that come with the program.
+/// All meshes delivered with the program.
 std::vector<std::filesystem::path> shippedMeshes() {
     std::vector<std::filesystem::path> meshes;
     for (const char* folder : {"scenes", "shapes"})
@@ -186,7 +186,7 @@ std::vector<std::filesystem::path> shippedMeshes() {
     return meshes;
 }
 
-/// Reads the text as the kind of file that the extension says.
+/// Reads the text as a file with this extension.
 Polygons polygonsOf(const std::filesystem::path& file, std::string_view text) {
     if (file.extension() == ".obj") return readObj(text, file);
     return file.extension() == ".ply" ? readPly(text, file) : readStl(text, file);
@@ -231,12 +231,12 @@ TEST(MeshFile, GivesNMinusTwoTrianglesForAnyPolygon) {
             const glm::dvec3 a(mesh.positions[mesh.indices[i]]), b(mesh.positions[mesh.indices[i + 1]]),
                 c(mesh.positions[mesh.indices[i + 2]]);
             const double part = 0.5 * glm::cross(b - a, c - a).z;
-            EXPECT_GE(part, -1e-9) << n;  // none lies outside
+            EXPECT_GE(part, -1e-9) << n;  // none is outside
             sum += part;
         }
         EXPECT_NEAR(sum, area, 1e-5) << n;
     }
-    // Without area, or through itself: still n - 2.
+    // Without area, or self-intersecting: still n - 2.
     const auto triangles = [&](const std::string& text) {
         return readMesh(folder.write("p.obj", text), {}).indices.size() / 3;
     };

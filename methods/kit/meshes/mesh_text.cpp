@@ -56,15 +56,17 @@ glm::vec3 Lines::vector(const std::vector<std::string_view>& words, std::size_t 
     for (int k = 0; k < 3; ++k) {
         const std::string_view word = words[first + static_cast<std::size_t>(k)];
         point[k] = static_cast<float>(number(word));
-        if (!std::isfinite(point[k])) fail(fmt::format("got {}, expected a number that a float holds", inQuotes(word)));
+        if (!std::isfinite(point[k]))
+            fail(fmt::format("got {}, expected a number in the range of a float", inQuotes(word)));
     }
     return point;
 }
 
 void Lines::requireLineEnd() const {
     if (text_.empty() || text_.back() != '\n')
-        throw InputError(fmt::format(
-            "{}: the last line has no line end, so the file may be cut; add one if it is whole", file_.string()));
+        throw InputError(
+            fmt::format("{}: the last line has no line end, so the file may be truncated; add one if it is complete",
+                        file_.string()));
 }
 
 }  // namespace dustbench::meshes

@@ -1,4 +1,4 @@
-// Lines, words and numbers of meshes that are text, and the messages about them.
+// Lines, words and numbers of text meshes, and their error messages.
 #pragma once
 
 #include <charconv>
@@ -14,7 +14,7 @@ namespace dustbench::meshes {
 
 [[nodiscard]] std::vector<std::string_view> wordsOf(std::string_view line);
 
-/// At most 40 bytes, for a message.
+/// For messages; at most 40 bytes of the text.
 [[nodiscard]] std::string inQuotes(std::string_view text);
 
 /// The whole word as a number, a leading '+' allowed.
@@ -34,17 +34,17 @@ class Lines {
 
     /// The next line, blank or not; false at the end.
     [[nodiscard]] bool next(std::string_view& line);
-    /// The words of the next line that has any; false at the end.
+    /// The words of the next non-blank line; false at the end.
     [[nodiscard]] bool nextWords(std::vector<std::string_view>& words);
     /// Bytes up to the end of the last line read.
     [[nodiscard]] std::size_t offset() const { return at_; }
     /// Throws InputError `file:line: what`.
     [[noreturn]] void fail(const std::string& what) const;
-    /// Throws InputError for what is no finite number.
+    /// Throws InputError if the word is not a finite number.
     [[nodiscard]] double number(std::string_view word) const;
     /// Three words as a point of finite floats.
     [[nodiscard]] glm::vec3 vector(const std::vector<std::string_view>& words, std::size_t first) const;
-    /// The line end is what tells a whole last line from a cut one.
+    /// Requires the line end that distinguishes a complete last line from a truncated one.
     void requireLineEnd() const;
 
  private:

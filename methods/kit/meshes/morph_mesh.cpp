@@ -5,7 +5,7 @@
 namespace dustbench::meshes {
 namespace {
 
-/// Of the triangles around each vertex, by their areas.
+/// Vertex normals: the mean of the surrounding triangles, weighted by area.
 void computeNormals(scene::Mesh& mesh) {
     std::vector<glm::vec3> sums(mesh.positions.size(), glm::vec3(0));
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -22,7 +22,7 @@ void computeNormals(scene::Mesh& mesh) {
 scene::DeformedMesh deformed(const MorphMesh& morph, std::span<const double> weights,
                              std::span<const double> weightsPerSecond) {
     if (weights.size() != morph.offsets.size() || weightsPerSecond.size() != morph.offsets.size())
-        throw std::invalid_argument("deformed: a weight and its rate are needed for each target");
+        throw std::invalid_argument("deformed: expected a weight and its rate for each target");
     scene::DeformedMesh result{morph.rest, std::vector<glm::vec3>(morph.rest.positions.size(), glm::vec3(0))};
     for (std::size_t t = 0; t < weights.size(); ++t) {
         const auto weight = static_cast<float>(weights[t]), perSecond = static_cast<float>(weightsPerSecond[t]);

@@ -1,4 +1,4 @@
-// A mesh that changes its shape: each of its targets moves its vertices by a share of an offset of their own.
+// A mesh that deforms: each target has an offset for every vertex, and weights blend the targets.
 //
 // Units: metres, seconds. Frame: the mesh's. Threads: pure.
 // Source: Crane2007, 30.2.4, which interpolates the velocities of an animated mesh's vertices.
@@ -14,10 +14,10 @@ namespace dustbench::meshes {
 
 struct MorphMesh {
     scene::Mesh rest;
-    std::vector<std::vector<glm::vec3>> offsets;  ///< of each target, for each vertex: to where it has it
+    std::vector<std::vector<glm::vec3>> offsets;  ///< per target and vertex, to its position in the target
 };
 
-/// p = p₀ + Σ wₜ·dₜ and v = Σ ẇₜ·dₜ, with normals computed anew; `weights` and `weightsPerSecond` by target.
+/// p = p₀ + Σ wₜ·dₜ and v = Σ ẇₜ·dₜ, with recomputed normals; `weights` and `weightsPerSecond` by target.
 [[nodiscard]] DUSTBENCH_API scene::DeformedMesh deformed(const MorphMesh& morph, std::span<const double> weights,
                                                          std::span<const double> weightsPerSecond);
 

@@ -20,13 +20,12 @@ namespace limits = files::limits;
 using ObjWords = std::vector<std::string_view>;
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-/// Keywords that change no polygon.
+/// Keywords that do not affect polygons.
 constexpr std::array<std::string_view, 16> passedOver{
     "g", "o", "s",     "mg",  "usemtl",    "mtllib",     "usemap",   "maplib",
     "l", "p", "bevel", "lod", "trace_obj", "shadow_obj", "c_interp", "d_interp"};
 
-/// One logical line per line: a line that ends with a backslash goes on in the next, a comment excepted. Line numbers
-/// stay.
+/// Joins lines: one that ends with a backslash continues on the next, except for comments. Line numbers are preserved.
 std::string withoutContinuations(std::string_view text) {
     std::string joined;
     joined.reserve(text.size());
@@ -67,7 +66,7 @@ class ObjReader {
         if (ends_.empty()) throw InputError(file_.string() + ": the mesh has no faces ('f 1 2 3')");
         requireDeclared('v', vertices_.size());
         requireDeclared('f', ends_.size());
-        if (!normalsEverywhere_ && !normals_.empty()) ignored_.insert("normals (vn), which not every corner has");
+        if (!normalsEverywhere_ && !normals_.empty()) ignored_.insert("normals (vn), because some corners have none");
         Polygons mesh = normalsEverywhere_ ? withNormals() : withoutNormals();
         mesh.ignored.assign(ignored_.begin(), ignored_.end());
         return mesh;
@@ -89,7 +88,7 @@ class ObjReader {
         if (key == "s" && words.size() > 1 && words[1] != "off" && words[1] != "0")
             ignored_.insert("smoothing groups (s)");
         if (key.starts_with('#') || std::ranges::find(passedOver, key) != passedOver.end()) return;
-        lines_.fail(fmt::format("got {}, expected v, vt, vn, f or another keyword of polygons", inQuotes(key)));
+        lines_.fail(fmt::format("got {}, expected v, vt, vn, f or another polygon keyword", inQuotes(key)));
     }
 
     void requireNumbers(const ObjWords& words, std::size_t minimum, std::size_t maximum) const {
@@ -101,10 +100,10 @@ class ObjReader {
 
     void requireRoom(std::size_t count) const {
         if (static_cast<std::int64_t>(count) >= limits::meshElements)
-            lines_.fail(fmt::format("the mesh has too many elements, allowed: {} of a kind", limits::meshElements));
+            lines_.fail(fmt::format("the mesh has too many elements, allowed: {} of each kind", limits::meshElements));
     }
 
-    /// Weights and colours may follow the three coordinates; they are not used.
+    /// Weights and colours may follow the three coordinates; they are ignored.
     void readVertex(const ObjWords& words) {
         requireNumbers(words, 3, 7);
         requireRoom(vertices_.size());
@@ -154,7 +153,7 @@ class ObjReader {
         }
     }
 
-    /// Counted from 1, or from the last one back if negative.
+    /// Counts from 1, or backwards from the last one if negative.
     std::uint32_t indexOf(std::string_view text, std::size_t part, std::size_t given) const {
         static constexpr std::array kinds{"vertex", "texture coordinate", "normal"};
         const auto index = parse<std::int64_t>(text);
@@ -180,7 +179,7 @@ class ObjReader {
         const auto found = declared_.find(kind);
         if (found != declared_.end() && found->second != count)
             throw InputError(
-                fmt::format("{}: has {} lines '{}', expected {} as its comment '# counts:' says; it may be cut",
+                fmt::format("{}: has {} lines '{}', expected {} by its comment '# counts:'; it may be truncated",
                             file_.string(), count, kind, found->second));
     }
 

@@ -1,8 +1,8 @@
 // Reads the polygons of an OBJ file: v, vn and f. Texture coordinates, groups, materials, points and lines are checked
-// or passed over; free-form surfaces and unknown keywords are errors, because something would be missing.
+// or skipped. Free-form surfaces and unknown keywords are errors, because the mesh would be incomplete.
 //
-// Format: Wavefront, Advanced Visualizer, Appendix B1 (object files). A comment `# counts: v 642, f 1280` is ours: it
-// says how many lines of each kind the file has, which makes a file that is cut between two lines an error.
+// Format: Wavefront, Advanced Visualizer, Appendix B1 (object files). The comment `# counts: v 642, f 1280` is our
+// extension: it gives the number of lines of each kind, so that a file truncated between two lines is detected.
 #pragma once
 
 #include <filesystem>

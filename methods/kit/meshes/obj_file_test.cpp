@@ -34,7 +34,7 @@ TEST(ObjFile, NamesTheLineAndWhatIsAllowed) {
     EXPECT_THAT(objRefusal(corners + "f 1 2 -4\n"), HasSubstr("names vertex '-4'"));
     EXPECT_THAT(objRefusal(corners + "f 1//1 2//1 3//9\n"), HasSubstr("names normal '1', expected 1..0"));
     EXPECT_THAT(objRefusal("v 0 0 nan\n"), HasSubstr("m.obj:1: got 'nan', expected a number"));
-    EXPECT_THAT(objRefusal("v 0 0 1e39\n"), HasSubstr("expected a number that a float holds"));
+    EXPECT_THAT(objRefusal("v 0 0 1e39\n"), HasSubstr("expected a number in the range of a float"));
     EXPECT_THAT(objRefusal("v 0 0\n"), HasSubstr("got 2 numbers after 'v', expected 3..7"));
     EXPECT_THAT(objRefusal(corners + "f 1 2\n"), HasSubstr("a face has 2 corners, allowed: 3..4096"));
     EXPECT_THAT(objRefusal(corners + "F 1 2 3\n"), HasSubstr("got 'F', expected v, vt, vn, f"));
@@ -55,7 +55,7 @@ TEST(ObjFile, HoldsTheFileToItsOwnCounts) {
 }
 
 TEST(ObjFile, ReadsWhatOtherProgramsWrite) {
-    // Negative indices, lines that go on, comments, weights and colours, Windows' line ends, groups and materials.
+    // Negative indices, continued lines, comments, weights and colours, Windows' line ends, groups and materials.
     const Polygons mesh = readObj(
         "mtllib a\\b.mtl\r\no thing\r\nv 0 0 0 1\r\nv +1 0 0 0.5 0.5 0.5\r\nv 0 1e0 0 # three\r\ng a b\r\n"
         "usemtl red\r\ns off\r\nf -3 \\\r\n -2 -1\r\nl 1 2\r\n# ends in \\\r\nf 3 2 1\r\n",

@@ -8,7 +8,7 @@
 namespace dustbench::meshes {
 
 std::size_t openEdges(const scene::Mesh& mesh) {
-    // Corners at one place become one number: their rank among all places.
+    // Corners at the same position get the same number: their rank among all positions.
     const auto less = [](const glm::vec3& a, const glm::vec3& b) {
         return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
     };

@@ -1,4 +1,4 @@
-// Whether a mesh is closed.
+// Checks whether a mesh is closed.
 //
 // Threads: pure.
 #pragma once

@@ -21,7 +21,7 @@ namespace {
 
 using PlyWords = std::vector<std::string_view>;
 
-/// True if an integer type holds the value; a floating one holds all.
+/// True if the type can represent the value; floating-point types accept all values.
 bool holds(const PlyType& type, double value) {
     if (!type.isInteger()) return true;
     const int bits = static_cast<int>(8 * type.bytes);
@@ -30,7 +30,7 @@ bool holds(const PlyType& type, double value) {
     return value == std::floor(value) && value < end && value >= (isSigned ? -end : 0);
 }
 
-/// The values of one element after the other, of a body that is text: one line each.
+/// The values of consecutive elements in a text body: one line each.
 class TextBody {
  public:
     explicit TextBody(Lines& lines) : lines_(lines) {}
@@ -64,7 +64,7 @@ class TextBody {
     std::size_t at_ = 0;
 };
 
-/// The same for bytes.
+/// The same for a binary body.
 class BinaryBody {
  public:
     BinaryBody(std::string_view bytes, bool bigEndian, const std::filesystem::path& file)
@@ -108,7 +108,7 @@ class BinaryBody {
     const PlyElement* element_ = nullptr;
 };
 
-/// Three properties of an element, by their places in it; -1: none.
+/// Indices of three properties in an element; -1: none.
 using Triple = std::array<int, 3>;
 
 Triple tripleOf(const PlyElement& element, const std::array<std::string_view, 3>& names) {
@@ -116,7 +116,7 @@ Triple tripleOf(const PlyElement& element, const std::array<std::string_view, 3>
     return *std::ranges::min_element(triple) < 0 ? Triple{-1, -1, -1} : triple;
 }
 
-/// Where the values of interest lie in an element, checked for their types.
+/// Indices of the values of interest in an element, with their types checked.
 struct Columns {
     Triple position{-1, -1, -1}, normal{-1, -1, -1}, colour{-1, -1, -1};
     int corners = -1;
@@ -141,7 +141,7 @@ class Places {
         if (columns.corners < 0) fail("its faces have no list vertex_indices");
         const PlyProperty& list = element.properties[static_cast<std::size_t>(columns.corners)];
         if (!list.isList || !list.type.isInteger())
-            fail(fmt::format("property {} is no list of integers, expected 'property list uchar int {}'",
+            fail(fmt::format("property {} is not a list of integers, expected 'property list uchar int {}'",
                              inQuotes(list.name), list.name.substr(0, 40)));
         columns.colour = colourOf(element);
         return columns;

@@ -125,7 +125,7 @@ TEST(PlyFile, RefusesHeadersThatAnnounceNoMesh) {
                            "0 0\n1 0\n0 1\n3 0 1 2\n"),
                 HasSubstr("its vertices have no x, y and z"));
     EXPECT_THAT(plyRefusal(start + vertex + "element face 1\nproperty int vertex_indices\n" + end + points + "3\n"),
-                HasSubstr("'vertex_indices' is no list of integers"));
+                HasSubstr("'vertex_indices' is not a list of integers"));
     EXPECT_THAT(plyRefusal(start + vertex + "element face 1\nproperty list uchar float vertex_indices\n" + end +
                            points + "3 0 1 2\n"),
                 HasSubstr("no list of integers"));

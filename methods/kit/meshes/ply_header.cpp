@@ -74,7 +74,7 @@ void addProperty(const Lines& lines, const HeaderWords& words, PlyHeader& header
     element.properties.push_back(std::move(property));
 }
 
-/// The body of a file with elements of nothing cannot be told from a damaged header.
+/// The body of a file whose elements are empty cannot be distinguished from a damaged header.
 void requireProperties(const Lines& lines, const PlyHeader& header) {
     for (const PlyElement& element : header.elements)
         if (element.properties.empty() && element.count > 0)

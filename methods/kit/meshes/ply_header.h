@@ -1,4 +1,4 @@
-// The header of a PLY file: what elements the body has, and how each is stored.
+// The header of a PLY file: the elements of the body and their storage formats.
 //
 // Format: Turk, The PLY Polygon File Format (1994).
 #pragma once
@@ -44,8 +44,8 @@ struct PlyHeader {
     std::vector<PlyElement> elements;
 };
 
-/// Names of elements, and of properties within one, occur once; an element that occurs has properties. Throws
-/// InputError with file and line.
+/// Names of elements, and of properties within an element, must be unique; a non-empty element must have properties.
+/// Throws InputError with file and line.
 [[nodiscard]] PlyHeader readPlyHeader(Lines& lines);
 
 }  // namespace dustbench::meshes

@@ -1,4 +1,4 @@
-// A mesh as its file has it: polygons, not yet triangles.
+// A mesh as stored in its file: polygons, not yet triangles.
 //
 // Units: as in the file; colours: sRGB, 8 bit.
 #pragma once
@@ -19,9 +19,9 @@ struct Polygons {
     std::vector<glm::vec3> normals;      ///< one per position, or none
     std::vector<Colour8> colours;        ///< one per position, or none
     std::vector<Colour8> faceColours;    ///< one per polygon, or none
-    std::vector<std::uint32_t> corners;  ///< positions of all polygons, one polygon after the other
-    std::vector<std::size_t> ends;       ///< of each polygon within `corners`
-    std::vector<std::string> ignored;    ///< what the file holds besides: `property 's' of vertex`
+    std::vector<std::uint32_t> corners;  ///< indices of positions, polygon by polygon
+    std::vector<std::size_t> ends;       ///< end of each polygon in `corners`
+    std::vector<std::string> ignored;    ///< other contents of the file: `property 's' of vertex`
 
     [[nodiscard]] std::size_t size() const { return ends.size(); }
     [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t polygon) const {

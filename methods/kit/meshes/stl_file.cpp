@@ -20,11 +20,11 @@ using StlWords = std::vector<std::string_view>;
 
 constexpr std::size_t headerBytes = 84, facetBytes = 50;
 
-/// Joins corners at one point to one vertex.
+/// Merges corners at the same point into one vertex.
 class Joined {
  public:
     void add(const glm::vec3& point) {
-        const glm::vec3 key = point + 0.0f;  // -0 is 0
+        const glm::vec3 key = point + 0.0f;  // -0 becomes 0
         const auto [place, isNew] = places_.emplace(key, static_cast<std::uint32_t>(mesh_.positions.size()));
         if (isNew) mesh_.positions.push_back(point);
         mesh_.corners.push_back(place->second);
@@ -75,7 +75,7 @@ Polygons readBinary(std::string_view text, const std::filesystem::path& file) {
     return mesh;
 }
 
-/// Keywords are also written in capitals.
+/// Keywords may also be in capitals.
 bool isKeyword(std::string_view word, std::string_view keyword) {
     return std::ranges::equal(word, keyword, [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; });
 }

@@ -19,7 +19,7 @@ std::string stlRefusal(const std::string& text) {
     return inputError([&] { (void)readStl(text, "m.stl"); });
 }
 
-/// A binary file of `triangles` triangles, of which the corners are 0, 1, 2 …
+/// A binary file of `triangles` triangles with the corners 0, 1, 2 …
 std::string binary(std::uint32_t triangles, const std::string& title = "") {
     std::string text = title + std::string(80 - title.size(), ' ');
     text.append(reinterpret_cast<const char*>(&triangles), 4);

@@ -18,7 +18,7 @@ namespace dustbench::meshes {
 
 namespace {
 
-/// The nearest triangle on a ray; Embree 3 wants a context for it.
+/// The nearest triangle on a ray. Embree 3 requires a context.
 void intersect(RTCScene scene, RTCRayHit& query) {
 #if RTC_VERSION_MAJOR >= 4
     rtcIntersect1(scene, &query);
@@ -33,7 +33,7 @@ void intersect(RTCScene scene, RTCRayHit& query) {
 
 struct TriangleTree::Embree {
     Embree() {
-        // Not `threads=1`, by which Embree would limit the whole program's oneTBB.
+        // Not `threads=1`, because Embree would then limit oneTBB in the whole program.
         device = rtcNewDevice("set_affinity=0");
         if (!device) throw InputError("collision: Embree does not start on this machine");
         rtcSetDeviceMemoryMonitorFunction(
@@ -85,7 +85,7 @@ void TriangleTree::build() {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(embree_->scene, geometry);
     rtcReleaseGeometry(geometry);
-    // One thread builds, so that the tree is the same every time.
+    // Built with one thread, so that the tree is always the same.
     tbb::task_arena(1).execute([&] { rtcCommitScene(embree_->scene); });
     if (rtcGetDeviceError(embree_->device) != RTC_ERROR_NONE)
         throw InputError("collision: Embree cannot build a tree of " + std::to_string(corners_.size()) + " triangles");
@@ -122,7 +122,7 @@ std::optional<TriangleTree::Hit> TriangleTree::firstHit(const glm::vec3& from, c
 
 namespace {
 
-/// Weights of the point of a triangle that is nearest to p: of its plane if that lies within, else of an edge.
+/// Weights of the point of a triangle nearest to p: its projection on the plane if inside, otherwise on an edge.
 glm::dvec3 nearestOn(const std::array<glm::vec3, 3>& corners, const glm::dvec3& p) {
     const std::array<glm::dvec3, 3> v{glm::dvec3(corners[0]), glm::dvec3(corners[1]), glm::dvec3(corners[2])};
     const glm::dvec3 n = glm::cross(v[1] - v[0], v[2] - v[0]);
@@ -170,7 +170,7 @@ bool takeNearer(RTCPointQueryFunctionArguments* arguments) {
                         (distance == query.found->distanceMetres && triangle > query.found->triangle)))
         return false;
     query.found = {triangle, weights, distance};
-    // A little more, so that no triangle at the same distance is passed over by the rounding of floats.
+    // Slightly larger, so that rounding to floats does not exclude a triangle at the same distance.
     const auto radius = static_cast<float>(1.0001 * distance) + 1e-6f;
     if (radius >= arguments->query->radius) return false;
     arguments->query->radius = radius;

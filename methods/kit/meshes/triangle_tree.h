@@ -1,8 +1,8 @@
-// Triangles in a tree that finds the first one that a segment meets, and the one nearest to a point.
+// A tree of triangles that finds the first one on a segment and the nearest one to a point.
 //
 // Units: metres. Frame: world. Owns: the tree (Embree's) and a copy of the triangles. Threads: const members are safe
-// from any. Embree finds the triangle; where it is met or nearest is computed here in double precision, because
-// Embree's own arithmetic differs from processor to processor, and the state must not.
+// from any. Embree finds the triangle; the exact point is computed here in double precision, because Embree's
+// arithmetic differs between processors, and the state must not.
 #pragma once
 
 #include <array>
@@ -34,17 +34,17 @@ class DUSTBENCH_API TriangleTree {
     };
     [[nodiscard]] std::optional<Hit> firstHit(const glm::vec3& from, const glm::vec3& to) const;
 
-    /// The point of a triangle, in the order in which they were added: Σ weights·corner.
+    /// The point Σ weights·corner of a triangle; triangles are numbered in the order of their addition.
     struct Nearest {
         std::size_t triangle;
         glm::dvec3 weights;
         double distanceMetres;
     };
-    /// The nearest point within the radius; of equal ones that of the first triangle.
+    /// The nearest point within the radius; at equal distances, that of the first triangle.
     [[nodiscard]] std::optional<Nearest> nearest(const glm::vec3& point, float radiusMetres) const;
 
     [[nodiscard]] std::size_t triangles() const { return corners_.size(); }
-    /// Of the triangles, and of Embree's tree as Embree counts it.
+    /// Bytes of the triangles and of Embree's tree, as counted by Embree.
     [[nodiscard]] std::size_t bytes() const;
 
  private:

@@ -102,7 +102,7 @@ void BrickAssembly::assemble(BrickPartition& partition, const VoxelRule& rule, i
     numberVoxels(bricks, upper);
     tree.clear(depth);
     tree.setVoxels(voxels_, withMasses_);
-    // If a brick is the whole world, its own block is the root's.
+    // If a brick covers the whole world, its own block is the root's.
     tree.setBlocks(depth == brickRise ? std::max(blocks_ - 1, 1u) : blocks_);
     writeBricks(bricks, tree);
     for (std::size_t i = 0; i < upper.size(); ++i) {

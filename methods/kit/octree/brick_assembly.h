@@ -1,4 +1,4 @@
-// Assembles the voxels of bricks, and the voxels larger than a brick, into one tree.
+// Assembles the voxels of all bricks, and the voxels larger than a brick, into one tree.
 //
 // Owns: the voxels found in each brick, booked on a ledger. Threads: parallel over bricks; the tree does not depend on
 // the number of threads.

@@ -1,5 +1,5 @@
-// The present-day layout for both methods: sort the particles into bricks of 16³ cells once, reduce each brick to its
-// voxels independently and in parallel, and assemble the bricks.
+// The modern layout for both methods: sorts the particles into bricks of 16³ cells once, reduces each brick to its
+// voxels independently and in parallel, and assembles the bricks.
 //
 // Threads: uses the current oneTBB arena; the tree does not depend on the number of threads.
 #pragma once

@@ -12,7 +12,7 @@
 namespace dustbench::octree {
 namespace {
 
-/// One bit for each byte, set if the byte has any set bit.
+/// One bit for each byte, set if any bit of the byte is set.
 std::uint64_t anyOfEight(std::uint64_t bits) {
     bits |= bits >> 4;
     bits |= bits >> 2;
@@ -94,8 +94,8 @@ void BrickNodes::sortByLevel(const PlaceBits& voxels) {
     }
 }
 
-/// Finds all nodes: cells with a voxel of their own or below. The children of the eight cells in one byte of a word are
-/// stored in one word, whose number has three bits more. Each cell whose children are not finest cells has a block.
+/// Finds all nodes: cells that have a voxel, or contain one. The children of the eight cells in one byte of a word are
+/// stored in one word, whose number has three more bits. Each cell has a block unless its children are finest cells.
 void BrickNodes::findNodes() {
     voxelCount_ = 0;
     for (const std::uint64_t word : voxels_) voxelCount_ += bitCount(word);
@@ -113,7 +113,7 @@ void BrickNodes::findNodes() {
 }
 
 struct BrickNodes::Writer {
-    const std::uint8_t* voxels;  ///< as bytes: byte c holds the eight children of the coarse cell c
+    const std::uint8_t* voxels;  ///< as bytes: byte c has the eight children of the coarse cell c
     const std::uint8_t* nodes;
     const std::uint64_t* fine;  ///< word w: the finest cells in cell 64 + w
     NodeBlock* blocks;

@@ -49,7 +49,7 @@ class DUSTBENCH_API BrickNodes {
     [[nodiscard]] std::uint32_t voxelCount() const { return voxelCount_; }
     /// Number of blocks of eight, including that of the brick's own children.
     [[nodiscard]] std::uint32_t blockCount() const { return blockCount_; }
-    /// Whether the brick as a whole is a voxel.
+    /// True if the whole brick is one voxel.
     [[nodiscard]] bool isVoxel() const { return (voxels_[0] & 2) != 0; }
 
     /// Writes the brick's blocks: its own children's to `first`, the others from `next` on. Voxels are numbered in
@@ -66,7 +66,7 @@ class DUSTBENCH_API BrickNodes {
     static constexpr std::uint32_t coarseWords = 16, fineWords = 64;
 
     std::array<std::uint64_t, coarseWords + fineWords> voxels_;
-    std::array<std::uint64_t, coarseWords> nodes_;  ///< cells with a voxel of their own or below them
+    std::array<std::uint64_t, coarseWords> nodes_;  ///< cells that have or contain a voxel
     std::uint32_t voxelCount_ = 0, blockCount_ = 0;
 };
 

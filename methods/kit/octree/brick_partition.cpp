@@ -14,8 +14,8 @@
 namespace dustbench::octree {
 namespace {
 
-/// Above depth 8: as few chunks as keep the threads busy, since each has its own counters. The number of chunks does
-/// not affect the order.
+/// Above depth 8: just enough chunks to keep the threads busy, since each has separate counters. The number of chunks
+/// does not affect the order.
 constexpr std::size_t chunksPerThread = 4;
 constexpr std::size_t minimumChunk = 16'384;
 /// Up to depth 8: a chunk's keys, ranks and words, 14 bytes per particle, stay in one core's second-level cache until

@@ -1,4 +1,4 @@
-// Sorts particles into bricks; keeps the store's order within each brick.
+// Sorts particles into bricks, in the store's order within each brick.
 //
 // Up to depth 8 each chunk of the store is sorted separately, in a size that fits the cache of one core; a brick's
 // particles then form a run in each chunk. At greater depths there are too many bricks to count in each chunk, and all
@@ -20,7 +20,7 @@
 
 namespace dustbench::octree {
 
-/// One brick that holds particles.
+/// One brick that contains particles.
 struct Brick {
     std::uint64_t code = 0;              ///< Morton code of its first finest cell
     std::uint32_t first = 0, count = 0;  ///< its range among the particles of all bricks
@@ -33,7 +33,7 @@ struct Brick {
 }
 
 /// Packs a sorted particle into one word: leading bits of its priority, its place in the brick, its index. Of two
-/// particles in one cell the one with the higher word wins, unless the leading bits are equal.
+/// particles in one cell, the one with the higher word wins, unless the leading bits are equal.
 struct BrickKey {
     int indexBits = 24;  ///< enough for the number of particles
 
@@ -69,7 +69,7 @@ class DUSTBENCH_API BrickPartition {
         const std::uint32_t* ends = ends_.data() + brick.bin;
         for (std::size_t run = 0; run < runs_; ++run, ends += runStride_) {
             const std::uint64_t* const end = sorted_.data() + ends[1];
-            // The next brick's run begins here.
+            // The next brick's run starts here.
             __builtin_prefetch(end);
             __builtin_prefetch(end + 8);
             __builtin_prefetch(ends + 16);

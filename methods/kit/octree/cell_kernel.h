@@ -168,11 +168,11 @@ class CellKernel {
     std::uint32_t firstX_, firstY_, firstZ_, cells_, levels_;
 };
 
-/// Whether a particle's position has no NaN.
+/// True if the particle's position has no NaN.
 [[nodiscard]] bool isNumber(const Puffs& store, std::size_t particle);
 /// `checkPositions` throws SimulationError with the serial of the first particle whose position is NaN. `checkCount`
-/// throws InputError if there are more particles than a voxel can index. For builders, which check positions only if
-/// particles lie outside the world.
+/// throws InputError if there are more particles than a voxel can index. Builders check positions only if particles
+/// are outside the world.
 void checkPositions(const Puffs& store);
 void checkCount(const Puffs& store);
 

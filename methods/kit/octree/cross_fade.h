@@ -16,7 +16,7 @@ class CrossFade {
     CrossFade(MemoryLedger& ledger, double timeConstantSeconds);
 
     /// Advances by one frame towards `target`, whose places must ascend. Returns the voxels to draw, in the same order.
-    /// The first call returns a copy of the target. Voxels outside a world that has moved are dropped.
+    /// The first call returns a copy of the target. If the world has moved, voxels outside of it are dropped.
     const VoxelCloud& follow(const VoxelCloud& target, double stepSeconds);
 
  private:

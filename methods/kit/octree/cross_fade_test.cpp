@@ -51,7 +51,7 @@ TEST(CrossFade, StaysWhereItIsWhileTheWorldMoves) {
     ASSERT_EQ(shown.size(), 1u);
     EXPECT_NEAR(shown.mass[0], 1, 1e-6);
     EXPECT_EQ(shown.x[0], x);
-    // In a world twice as wide, with a level more.
+    // In a world twice as wide, with one more level.
     Lattice grown = moved;
     grown.origin -= 64;
     grown.edgeMetres = 256;

@@ -17,7 +17,7 @@ struct alignas(64) FourBitTable {
     std::array<std::uint32_t, 16> numbers{};
 };
 
-/// Codes and places are sums of contributions from each coordinate's bits: this is one coordinate's contribution.
+/// Codes and places are sums of one contribution per coordinate; this is the contribution of one coordinate's bits.
 template <int axis>
 constexpr std::uint32_t codeAlong(std::uint32_t bits) {
     return spreadByte(bits) << (2 - axis);
@@ -54,7 +54,7 @@ Sixteen placesInBricks(const SixteenCells& cells) {
 template <LevelRule rule>
 void makeNarrowKeys(const CellKernel<rule>& kernel, std::size_t first, std::size_t count, std::uint32_t bricks,
                     std::uint32_t* keys) {
-    const CellKernel<rule> cellsOf = kernel;  // a copy, which the compiler knows does not alias the keys
+    const CellKernel<rule> cellsOf = kernel;  // a copy, so that the compiler knows that it does not alias the keys
     std::size_t i = 0;
 #ifdef __AVX512F__
     for (; i + 16 <= count; i += 16) {

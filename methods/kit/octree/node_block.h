@@ -12,10 +12,10 @@ namespace dustbench::octree {
 
 /// One node. A node exists if it has a voxel, children or both.
 ///
-/// Children that are finest cells have only a voxel. If voxels are numbered in pre-order, theirs follow the node's own
-/// voxel, so that one bit per child suffices: the node has a family instead of a block.
+/// Children that are finest cells have only a voxel. With voxels numbered in pre-order, the children's voxels follow
+/// the node's own, so one bit per child suffices: the node has a family instead of a block.
 struct NodeSlot {
-    /// Marks a family. The lowest eight bits then flag the children; ownVoxelFlag tells whether the node has a voxel
+    /// Marks a family. The lowest eight bits then flag the children; ownVoxelFlag is set if the node has a voxel
     /// too.
     static constexpr std::uint32_t familyFlag = 1u << 31, ownVoxelFlag = 1u << 8;
 
@@ -36,7 +36,7 @@ struct NodeSlot {
     }
 };
 
-/// The children of one node by octant, 4·x + 2·y + z. Block 0 holds the root's children.
+/// The children of one node by octant, 4·x + 2·y + z. Block 0 contains the root's children.
 struct alignas(64) NodeBlock {
     std::array<NodeSlot, 8> slots;
 

@@ -33,7 +33,7 @@ class Octree {
         /// Index into `voxels()`.
         [[nodiscard]] std::uint32_t voxel() const { return slot_.voxel - 1; }
         [[nodiscard]] bool hasChildren() const { return level_ == 0 || slot_.children != 0; }
-        /// Whether the octant has a node; `child` requires one.
+        /// True if the octant has a node, which `child` requires.
         [[nodiscard]] bool hasChild(unsigned octant) const { return hasChildren() && slotOf(octant).exists(); }
         [[nodiscard]] Cursor child(unsigned octant) const {
             const std::uint64_t below = static_cast<std::uint64_t>(octant) << 3 * (tree_->depth_ - level_ - 1);
@@ -60,10 +60,10 @@ class Octree {
     [[nodiscard]] std::span<const CellEntry> voxels() const { return {voxels_.data(), voxelCount_}; }
     /// Optical mass of each voxel, m²; empty unless the policy is `accumulate`.
     [[nodiscard]] std::span<const double> masses() const { return {masses_.data(), massCount_}; }
-    /// Block 0 holds the root's children.
+    /// Block 0 contains the root's children.
     [[nodiscard]] std::span<const NodeBlock> blocks() const { return {blocks_.data(), blockCount_}; }
     [[nodiscard]] int depth() const { return depth_; }
-    /// Of nodes and voxels, without memory held in reserve.
+    /// Of nodes and voxels, without reserved memory.
     [[nodiscard]] std::size_t bytes() const {
         return blocks().size_bytes() + voxels().size_bytes() + masses().size_bytes();
     }
@@ -104,7 +104,7 @@ class Octree {
         blockCount_ = count;
     }
     /// Sets the number of voxels to `count`. The builder must write new voxels; existing ones keep their values unless
-    /// the memory grows.
+    /// the memory is reallocated.
     void setVoxels(std::size_t count, bool withMasses) {
         voxels_.hold(count);
         voxelCount_ = count;

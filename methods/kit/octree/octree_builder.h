@@ -1,4 +1,4 @@
-// Interface of the ways to build the octree from particles. All builders return the same voxels in the same order.
+// Interface of the octree builders. All builders return the same voxels in the same order.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@ namespace dustbench::octree {
 class DUSTBENCH_API OctreeBuilder {
  public:
     virtual ~OctreeBuilder();
-    /// Returns the number of particles outside the world, which are in no voxel. Throws SimulationError if a position
-    /// is NaN.
+    /// Returns the number of particles outside the world, which belong to no voxel. Throws SimulationError if a
+    /// position is NaN.
     virtual std::int64_t build(const Puffs& store, const Lattice& lattice, const OctreeSettings& settings,
                                Octree& tree) = 0;
-    /// Bytes of the structure that holds the voxels of `tree`, the last one built; without what building it needed.
+    /// Bytes of the structure with the voxels of `tree`, the last one built, without temporary memory of the build.
     [[nodiscard]] virtual std::size_t structureBytes(const Octree& tree) const { return tree.bytes(); }
 };
 

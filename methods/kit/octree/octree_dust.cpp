@@ -19,22 +19,22 @@ namespace {
 constexpr std::size_t voxelsPerBlock = 16'384;
 /// Keeps a billboard's opacity below 1, where the optical depth is infinite.
 constexpr float maximumOpacity = 0.99999f;
-/// Radius of a voxel's circle by its edge: that of the sphere through its corners, so that circles of neighbours leave
-/// no gap. The paper does not give it.
+/// Radius of a voxel's circle by its edge: that of the voxel's circumscribed sphere, so that circles of neighbours
+/// leave no gap. The paper does not state it.
 constexpr float circleOfEdge = 0.8660254f;
 /// A billboard's half-side by its radius (draw/billboards.h).
 constexpr float halfSideOfRadius = 1.5f;
 /// Minimum distance between the vehicle and the faces of the world, as a fraction of the world's edge.
 constexpr double vehicleMargin = 1.0 / 8;
 
-/// Of the particles along an axis.
+/// Extent of the particles along an axis.
 struct Extent {
     double minimum, maximum;
     [[nodiscard]] double middle() const { return 0.5 * (minimum + maximum); }
 };
 using Extents = std::array<Extent, 3>;
 
-/// Ignores NaN. Of no numbers: infinity and −infinity.
+/// Ignores NaN. Without numbers: infinity and −infinity.
 Extent extentOf(std::span<const float> values) {
     // Independent lanes, so that the comparisons do not wait for each other.
     constexpr std::size_t lanes = 16;
@@ -53,7 +53,7 @@ Extent extentOf(std::span<const float> values) {
             static_cast<double>(*std::ranges::max_element(maximum))};
 }
 
-/// Centre of the world. A trail lies behind its vehicle, so the world is centred on the dust but keeps the vehicle
+/// Centre of the world. A trail is behind its vehicle, so the world is centred on the dust but keeps the vehicle
 /// inside.
 glm::dvec3 worldMiddle(const Extents& dust, const glm::dvec3& vehicle, double edgeMetres) {
     const double farthest = (0.5 - vehicleMargin) * edgeMetres;
@@ -72,8 +72,8 @@ bool holds(const Lattice& lattice, const Extents& dust) {
     return true;
 }
 
-/// The smallest world that holds all particles, from the one that is set: each is twice as wide as the one before and
-/// has a level more, so that voxels keep their size and place. The widest has `maximumDepth` levels.
+/// The smallest world that contains all particles, starting from the given edge: each is twice as wide as the previous
+/// one and has one more level, so that voxels keep their size and position. The widest has `maximumDepth` levels.
 Lattice latticeOver(const Puffs& dust, const glm::dvec3& vehicle, const DustSettings& settings) {
     const Extents extents{extentOf(dust.x), extentOf(dust.y), extentOf(dust.z)};
     Lattice lattice;
@@ -97,18 +97,17 @@ OctreeBuilder::~OctreeBuilder() = default;
 void declareDust(MethodInfo& info) {
     declareOctreeParameters(info.parameters);
     info.parameters
-        .choice(
-            "render", Render::billboards, renders,
-            "a voxel as a smoothly faded circle of its optical depth, as the paper's plain circle, as six faces, or a "
-            "march through the tree along each pixel's ray")
+        .choice("render", Render::billboards, renders,
+                "how voxels are drawn: smoothly faded circles of their optical depth, the paper's plain circles, six "
+                "faces, or ray marching through the tree")
         .choice("sort", draw::SortKind::radix, draw::sortKinds,
                 "order in which billboards and cubes are blended: far to near by the paper's quicksort or by a radix "
-                "sort, or as the tree gives them")
-        .boolean("crossfade", false, "let voxels fade in and out instead of popping")
+                "sort, or in tree order")
+        .boolean("crossfade", false, "fade voxels in and out instead of letting them pop")
         .real("crossfade_time", 0.1, 0.001, 10, "s", "time constant of that fading")
         .real("world_edge", 128, 1, 1e5, "m",
-              "edge of the octree's world, a cube that follows the vehicle; doubled, with a level more, until it holds "
-              "the dust or has 12 levels");
+              "edge of the octree's world, a cube that follows the vehicle; doubled, with one more level, until it "
+              "holds the dust or has 12 levels");
     draw::declareOpacity(info.parameters);
     declareDustFacts(info);
     info.facts.push_back({"mass_lost",
@@ -139,7 +138,7 @@ void declareDustFacts(MethodInfo& info) {
 
 void declareLayout(MethodInfo& info, const std::string& help) {
     info.parameters.choice("layout", "faithful", {"faithful", "morton", "paper"}, help)
-        .choice("mode", "fixed", {"fixed", "paper"}, "shown by the optical model, or built and drawn as in the paper")
+        .choice("mode", "fixed", {"fixed", "paper"}, "fixed: the optical model; paper: built and drawn as in the paper")
         .preset("mode", "paper",
                 {{"layout", "paper"}, {"opacity", "age"}, {"render", "circles"}, {"sort", "quicksort"}});
 }
@@ -223,8 +222,8 @@ void OctreeDust::update(const Frame& frame) {
         uploadBillboards(order);
 }
 
-/// r = edge/√(π/2) and τ = mass/edge²: a Gaussian puff with the voxel's mass and optical depth. As a plain circle: the
-/// opacity in its middle, and the size of the voxel.
+/// r = edge/√(π/2) and τ = mass/edge²: a Gaussian puff with the voxel's mass and optical depth. For a plain circle: the
+/// opacity at its centre, and the size of the voxel.
 void OctreeDust::uploadBillboards(std::span<const std::uint32_t> order) {
     const VoxelCloud& cloud = shown();
     const draw::InstanceLayout layout = billboards_->layout(cloud.coloured());
@@ -320,7 +319,7 @@ void OctreeDust::report(const Frame& frame, Facts& facts) const {
     for (const float mass : cloud_.mass) built += static_cast<double>(mass);
     for (const float mass : shown().mass) ofShown += static_cast<double>(mass);
     facts.tell("mass_kept", ofShown / ofParticles);
-    // By the other rules a voxel drops all particles but one; opacity by age alone keeps no mass.
+    // With the other policies a voxel keeps only one of its particles; opacity by age alone does not conserve mass.
     const bool keepsAll = settings_.tree.policy == OpacityPolicy::accumulate && !byAge_;
     if (settings_.worldGrows)
         facts.tell("mass_lost", keepsAll ? std::abs(1 - built / ofParticles) : outside / ofParticles);

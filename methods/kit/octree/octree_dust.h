@@ -1,9 +1,9 @@
-// Shows dust as octree voxels: everything that the two octree methods share, which is all except the construction.
+// Draws dust as octree voxels: everything that the two octree methods share, which is all but the construction.
 //
 // Each frame rebuilds the tree over a cube that follows the vehicle and its trail, lists its voxels, optionally
 // cross-fades them, and draws them as billboards, as cubes or by ray marching through the tree.
 //
-// Source: Carr2006, 3.2 and 3.5. `mode=paper` gives a voxel its opacity by age alone and draws it as a plain circle.
+// Source: Carr2006, 3.2 and 3.5. `mode=paper` sets a voxel's opacity by age alone and draws it as a plain circle.
 // Departs in `mode=fixed`: opacity follows the optical model shared by all methods (maths/transmittance.h).
 #pragma once
 
@@ -25,7 +25,7 @@ namespace dustbench::octree {
 /// How voxels are drawn.
 enum class Render {
     billboards,  ///< smoothly faded circles of the voxel's optical depth
-    circles,     ///< the paper's: circles whose middle has the voxel's opacity
+    circles,     ///< as in the paper: circles with the voxel's opacity at the centre
     cubes,       ///< six faces
     raycast,     ///< ray marching through the tree
 };
@@ -43,15 +43,15 @@ struct DustSettings {
     bool crossFade = false;
     double crossFadeSeconds = 0.1;
     double worldEdgeMetres = 128;  ///< of the smallest world
-    bool worldGrows = true;        ///< is doubled, with a level more, until it holds all particles
+    bool worldGrows = true;        ///< doubled, with one more level, until it holds all particles
 };
 
 /// Adds the parameters above to the method's parameters, and the facts that OctreeDust reports.
 DUSTBENCH_API void declareDust(MethodInfo& info);
-/// Adds the facts alone.
+/// Adds only the facts.
 DUSTBENCH_API void declareDustFacts(MethodInfo& info);
-/// Adds `layout`, the way of building, and `mode`, whose word `paper` is a preset of all these parameters. `help`
-/// explains the layouts.
+/// Adds `layout`, the builder, and `mode`, whose word `paper` is a preset of all these parameters. `help` explains the
+/// layouts.
 DUSTBENCH_API void declareLayout(MethodInfo& info, const std::string& help);
 /// Throws InputError if the values are inconsistent.
 [[nodiscard]] DUSTBENCH_API DustSettings dustSettings(const ParameterValues& values);
@@ -71,7 +71,7 @@ class DUSTBENCH_API OctreeDust final : public Method {
     [[nodiscard]] std::int64_t primitives() const override { return static_cast<std::int64_t>(shown().size()); }
 
     [[nodiscard]] const Octree& tree() const { return tree_; }
-    /// The voxels that are drawn.
+    /// The voxels to draw.
     [[nodiscard]] const VoxelCloud& shown() const { return *shown_; }
 
  private:

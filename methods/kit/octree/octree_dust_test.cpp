@@ -149,7 +149,7 @@ TEST(OctreeDust, HoldsATrailThatIsLongerThanHalfItsWorld) {
     EXPECT_LT(clipped(), 300);
 }
 
-/// Place, edge and mass of every voxel that is shown.
+/// Position, edge and mass of every voxel that is drawn.
 std::set<std::tuple<float, float, float, float, float>> voxelsOf(const OctreeDust& method) {
     const VoxelCloud& cloud = method.shown();
     std::set<std::tuple<float, float, float, float, float>> voxels;
@@ -158,7 +158,7 @@ std::set<std::tuple<float, float, float, float, float>> voxelsOf(const OctreeDus
     return voxels;
 }
 
-/// What remains of a trail of this length, at this depth.
+/// The remaining part of a trail of this length, at this depth.
 struct Held {
     std::int64_t clipped;
     double lost, edge;
@@ -220,7 +220,7 @@ TEST(OctreeDust, SaysWhatItLosesWhereItsWorldCannotGrow) {
     EXPECT_FALSE(valid("mass_lost", held.lost));
     EXPECT_TRUE(valid("clipped", 0));
     EXPECT_TRUE(valid("mass_lost", 1e-6));
-    EXPECT_TRUE(valid("mass_kept", 0.2));  // by the rule of max and youngest
+    EXPECT_TRUE(valid("mass_kept", 0.2));  // by the policies max and youngest
     EXPECT_EQ(heldOf(200, maximumDepth - 1).clipped, 0);
 }
 
@@ -333,7 +333,7 @@ TEST(OctreeDust, DrawsAVoxelAsAPlainCircleOfItsOpacity) {
     DustSettings settings = settingsOf(Render::circles);
     settings.opacity = draw::OpacityFrom::age;
     settings.tree.depth = 5;
-    settings.tree.levels = 1;  // a voxel of 4 m, with its middle at 2 m
+    settings.tree.levels = 1;  // a voxel of 4 m, centred at 2 m
     OctreeDust method = make(settings);
     method.prepare(moment.scene, {}, Moment::device());
     method.update(moment.frame());

@@ -13,7 +13,7 @@
 namespace dustbench::octree {
 namespace {
 
-/// Texels per row, and rows: limits that every OpenGL 4.5 implementation supports.
+/// Texels per row, and rows: limits guaranteed by OpenGL 4.5.
 constexpr int rowBits = 12;
 constexpr std::size_t texelsPerRow = 1u << rowBits, maximumRows = 16384;
 
@@ -29,7 +29,7 @@ Rays raysOf(const scene::View& view, const glm::mat4& worldToEye) {
     return {-axes[2] - 0.5 * view.width * right - 0.5 * view.height * up, right, up};
 }
 
-/// Whether a box, given by its corners relative to the eye, lies entirely beyond the near plane.
+/// True if a box, given by its corners relative to the eye, is entirely beyond the near plane.
 bool isBeforeNearPlane(const glm::dvec3& minimum, const glm::dvec3& maximum, const glm::dvec3& forward,
                        double nearMetres) {
     double nearest = 0;  // distance of the nearest corner along the camera's axis
@@ -100,7 +100,7 @@ void OctreeMarch::draw(const scene::View& view, const glm::vec3& colourOfAll, co
     program.set("nearDistance", static_cast<float>(view.camera.nearMetres / cellMetres));
     if (tree_.colours().empty()) program.set("colourOfAll", colourOfAll);
 
-    // Slightly larger than the voxels, because rasterisers round corners; rays that miss end at once.
+    // Slightly larger than the voxels, because rasterisers round corners; rays that miss end immediately.
     const glm::dvec3 minimum = cellMetres * (glm::dvec3(tree_.minimum()) - 0.5) - eyeMetres;
     const glm::dvec3 maximum = cellMetres * (glm::dvec3(tree_.maximum()) + 0.5) - eyeMetres;
     const glm::dvec3 forward = -glm::dvec3(glm::transpose(glm::mat3(worldToEye))[2]);

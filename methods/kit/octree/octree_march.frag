@@ -2,10 +2,10 @@
 //
 //     D ← D + σ·Δ,   T = exp2(−D),   C ← C + (T before − T after)·colour
 //
-// The tree is stored in textures: storage buffers read in this loop gave wrong values on llvmpipe (Mesa 22.3).
+// The tree is stored in textures, because storage buffers read in this loop gave wrong values on llvmpipe (Mesa 22.3).
 // Axes along which the ray runs backwards are mirrored, so that it always runs towards higher cells. Its position is
-// the finest cell that contains it: steps go from cell to cell in integers, and each advances along one axis without
-// going back along another, so that rounding can neither skip a cell nor cause an endless loop.
+// the finest cell that contains it: steps move from cell to cell in integers, and each advances along one axis without
+// moving back along another, so that rounding can neither skip a cell nor cause an endless loop.
 layout(binding = 1) uniform sampler2D slots;  // octree_march_tree.h, row after row
 #ifdef COLOURED
 layout(binding = 2) uniform sampler2D colours;
@@ -54,8 +54,8 @@ void main() {
     float transmittance = 1.0;
 #endif
 
-    // Blocks on the path down, by the bit of the cell that selects among their slots: a step goes up only as far as the
-    // cell's bits have changed. Twice as fast as restarting from the root.
+    // Blocks on the path down, by the bit of the cell that selects among their slots: a step moves up only as far as
+    // the cell's bits have changed. Twice as fast as restarting from the root.
     int stack[12];
     int bit = levels - 1;
     stack[bit] = 0;

@@ -25,11 +25,11 @@ class OctreeMarch {
  public:
     explicit OctreeMarch(gpu::Device& device);
 
-    /// Copies everything that is drawn; the tree need not outlive the call. Throws like OctreeMarchTree::set, and
-    /// InputError if there are more than 2^23 blocks; nothing is drawn after an error.
+    /// Copies all data to draw; the tree need not outlive the call. Throws like OctreeMarchTree::set, and InputError if
+    /// there are more than 2^23 blocks; nothing is drawn after an error.
     void upload(const MarchedTree& tree);
 
-    /// Draws the tree uploaded last; may be called repeatedly. `colourOfAll` applies to trees without own colours.
+    /// Draws the tree uploaded last; may be called repeatedly. `colourOfAll` applies to trees without colours.
     void draw(const scene::View& view, const glm::vec3& colourOfAll, const gpu::Layer& layer);
 
     [[nodiscard]] std::size_t gpuBytes() const { return slots_.bytes() + colours_.bytes(); }
@@ -41,7 +41,7 @@ class OctreeMarch {
     gpu::Device& device_;
     Lattice lattice_;
     OctreeMarchTree tree_;
-    gpu::Texture slots_;  ///< row after row; colours alike
+    gpu::Texture slots_;  ///< row by row; likewise the colours
     gpu::Texture colours_;
     std::size_t rows_ = 0;
     bool drawable_ = false;  ///< false if the tree is empty or an upload failed

@@ -1,4 +1,4 @@
-// Covers the pixels whose rays may meet a box: draws the faces of the box that face the eye, or the whole image.
+// Covers the pixels whose rays may hit a box: draws the faces of the box that face the eye, or the whole image.
 uniform bool wholePicture;
 uniform vec3 boxMinimum, boxMaximum;  // relative to the eye, along the world's axes
 uniform mat4 worldToEye;

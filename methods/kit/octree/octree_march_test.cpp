@@ -158,7 +158,7 @@ TEST(OctreeMarch, SumsUpExtinctionTimesLengthOverAllVoxels) {
         const Lattice lattice{somewhere(random, 300), round % 2 ? 128.0 : 7.3, depth};
         const TestTree tree = randomTree(lattice, random, 10 + 10 * round);
         const glm::dvec3 middle = lattice.origin + lattice.edgeMetres / 2;
-        // From outside towards the middle, and from within in any direction; every third round with a wall.
+        // From outside towards the centre, and from inside in any direction; every third round with a wall.
         const glm::dvec3 eye = middle + somewhere(random, (round % 4 < 2 ? 1.2 : 0.4) * lattice.edgeMetres);
         canvas.lookFrom(eye, round % 4 < 2 ? middle - eye : somewhere(random, 1));
         canvas.setWall(round % 3 == 2 ? std::optional(0.4 * lattice.edgeMetres) : std::nullopt, 48);

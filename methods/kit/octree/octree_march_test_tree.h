@@ -23,7 +23,7 @@ class TestTree {
  public:
     explicit TestTree(const Lattice& lattice) : lattice_(lattice) {}
 
-    /// Returns false if there is a voxel already.
+    /// Returns false if the voxel exists.
     bool add(const TestVoxel& voxel) {
         if (blocks_.empty()) blocks_.emplace_back();
         std::uint32_t block = 0;
@@ -62,8 +62,8 @@ class TestTree {
     std::vector<glm::vec3> colours_;
 };
 
-/// The dust of a car that has driven a curve of 60 m and stands at its end, x = 30 m: puffs drift, grow and thin out
-/// with age, and old puffs have larger voxels.
+/// The dust of a car that has driven along a curve of 60 m to x = 30 m: puffs drift, grow and thin out with age, and
+/// old puffs have larger voxels.
 inline TestTree trailTree(const Lattice& lattice, std::size_t voxels, int levels = 4) {
     TestTree tree(lattice);
     std::mt19937 random(1);

@@ -74,7 +74,7 @@ void OctreeMarchTree::write(const MarchedTree& tree, const Pending& pending, std
             if (noBlock || pending.level == depth)
                 throw std::invalid_argument("octree node of level " + std::to_string(pending.level) + " with block " +
                                             std::to_string(node.children) + " of " +
-                                            std::to_string(tree.blocks.size()) + " as children: no tree of depth " +
+                                            std::to_string(tree.blocks.size()) + " as children: not a tree of depth " +
                                             std::to_string(depth));
             slots_[slot] = static_cast<float>(queue_.size());
             queue_.push_back({node, pending.level + 1, minimum, extinction, colour});

@@ -13,7 +13,7 @@ void declareOctreeParameters(ParameterSet& parameters) {
         .choice("policy", OpacityPolicy::max, opacityPolicies,
                 "several particles in a voxel: the most opaque one, the youngest one, or the sum of their masses")
         .choice("level_rule", LevelRule::age, levelRules,
-                "a particle's level: by its age, or the voxel edge nearest 1.253 times its radius");
+                "a particle's level: by its age, or the voxel edge closest to 1.253 times its radius");
 }
 
 OctreeSettings octreeSettings(const ParameterValues& values) {

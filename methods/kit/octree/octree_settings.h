@@ -5,11 +5,11 @@
 
 namespace dustbench::octree {
 
-/// Whose opacity a voxel of several particles takes; `accumulate` adds their optical masses.
+/// Which particle's opacity a voxel of several particles takes; `accumulate` adds their optical masses.
 enum class OpacityPolicy { max, youngest, accumulate };
 inline constexpr Choices<OpacityPolicy> opacityPolicies{
     {"max", OpacityPolicy::max}, {"youngest", OpacityPolicy::youngest}, {"accumulate", OpacityPolicy::accumulate}};
-/// What sets the size of a particle's voxel.
+/// What determines the size of a particle's voxel.
 enum class LevelRule { age, radius };
 inline constexpr Choices<LevelRule> levelRules{{"age", LevelRule::age}, {"radius", LevelRule::radius}};
 

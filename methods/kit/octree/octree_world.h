@@ -7,7 +7,7 @@
 namespace dustbench::octree {
 
 /// Minimum corner of the cube of edge `edgeMetres` around `centre`, moved in steps of `stepMetres` (the coarsest
-/// voxel's edge). On level ground the cube's middle is at y = 0. Throws std::invalid_argument unless 0 < stepMetres ≤
+/// voxel's edge). On level ground the cube's centre is at y = 0. Throws std::invalid_argument unless 0 < stepMetres ≤
 /// edgeMetres.
 [[nodiscard]] glm::dvec3 octreeWorldOrigin(const glm::dvec3& centre, double edgeMetres, double stepMetres);
 

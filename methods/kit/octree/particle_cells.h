@@ -1,4 +1,4 @@
-// The list of active particles that starts a faithful build: each particle's cell and level in one packed word.
+// The list of active particles, the first step of a faithful build: each particle's cell and level in one packed word.
 //
 // Threads: parallel over fixed blocks; the result does not depend on the number of threads.
 // Source: Carr2006, 3.3 and 3.4, step 1.

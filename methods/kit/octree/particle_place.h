@@ -1,8 +1,8 @@
-// Where a particle belongs in the octree: its coordinates in finest cells, and the level of its voxel.
+// The position of a particle in the octree: its coordinates in finest cells, and the level of its voxel.
 //
-// For builders that look at one particle at a time. The same arithmetic as CellKernel's, so the same voxels.
+// For builders that process one particle at a time. The arithmetic is that of CellKernel, so the voxels are the same.
 // Units: finest cells, counted from the world's origin (not from the octree's corner). Frame: world. Threads: pure.
-// Source: Carr2006, 3.3 and 3.4. Departs: the paper does not say at which ages a particle moves up a level.
+// Source: Carr2006, 3.3 and 3.4. Departs: the paper does not state the ages at which a particle moves up a level.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -53,7 +53,7 @@ class ParticlePlace {
     double edge_;
 };
 
-/// Fills `active` with the particles inside the world, in store order; returns the number of the others. Throws like
+/// Fills `active` with the particles inside the world, in store order; returns the number of all others. Throws like
 /// `checkCount` and `checkPositions` (cell_kernel.h).
 DUSTBENCH_API std::int64_t listActive(const Puffs& store, const ParticlePlace& place,
                                       LedgerVector<std::uint32_t>& active);

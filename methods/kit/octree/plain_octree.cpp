@@ -43,7 +43,7 @@ double plainMass(const Puffs& store, std::size_t i) {
     return tau * 2 * std::numbers::pi * s * s;
 }
 
-/// Whether `a` rather than `b` represents their voxel: the highest opacity or the lowest age; ties by lower serial.
+/// True if `a` rather than `b` represents their voxel: the highest opacity or the lowest age; ties by lower serial.
 bool comesBefore(const Puffs& store, OpacityPolicy policy, std::size_t a, std::size_t b) {
     const auto rank = [&](std::size_t i) {
         return std::pair(policy == OpacityPolicy::max ? -store.opacity[i] : store.age[i], store.serial[i]);

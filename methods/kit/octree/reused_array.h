@@ -7,13 +7,13 @@
 
 namespace dustbench::octree {
 
-/// Owns: its elements, booked on a ledger. A steady load allocates nothing, because growth leaves room to spare.
+/// Owns: its elements, booked on a ledger. Growth reserves extra capacity, so that a steady load does not allocate.
 template <typename T>
 class ReusedArray {
  public:
     explicit ReusedArray(MemoryAccount& account) : memory_(account) {}
 
-    /// Room for `count` elements of unspecified value; growth discards the old contents.
+    /// Space for `count` elements of unspecified value; growth discards the old contents.
     T* hold(std::size_t count) {
         if (memory_.size() < count) {
             const std::size_t size = count + count / 8;
@@ -23,7 +23,7 @@ class ReusedArray {
         }
         return memory_.data();
     }
-    /// Room for `count` elements; keeps the first `used`.
+    /// Space for `count` elements; keeps the first `used`.
     T* extend(std::size_t count, std::size_t used) {
         if (memory_.size() < count) {
             memory_.resize(used);

@@ -33,7 +33,7 @@ struct VoxelCloud {
     [[nodiscard]] float extinctionPerMetre(std::size_t i) const { return opticalDepth(i) / edge[i]; }
 
     Lattice lattice;
-    LedgerVector<std::uint64_t> place;  ///< as CellEntry::place: ascending
+    LedgerVector<std::uint64_t> place;  ///< CellEntry::place, ascending
     LedgerVector<float> x, y, z, edge;  ///< centre; edge
     LedgerVector<float> mass;           ///< τ·2π·s², of the representing particle or summed
     LedgerVector<float> age;

@@ -1,7 +1,7 @@
-// Policies for particles that share a voxel: which one the voxel represents, and how much mass it holds.
+// Policies for particles that share a voxel: which one represents the voxel, and the voxel's mass.
 //
 // Units: m² (optical mass). Threads: pure.
-// The paper does not say what happens to particles that share a voxel: these policies are ours.
+// The paper does not state what happens to particles that share a voxel: these policies are ours.
 #pragma once
 
 #include <bit>

@@ -17,7 +17,7 @@
 
 namespace dustbench::parallel {
 
-/// For choices that must not affect the result, such as how finely to split work.
+/// Only for choices that cannot affect the result, such as how finely to split work.
 [[nodiscard]] inline std::size_t threadCount() {
 #ifdef __SANITIZE_THREAD__
     return 2;

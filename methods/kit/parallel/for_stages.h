@@ -25,13 +25,13 @@ void forStages(std::size_t slabs, std::size_t stages, std::size_t maximumBlocks,
     // Wedges must not overlap.
     const std::size_t blocks = std::clamp<std::size_t>(slabs / std::max<std::size_t>(1, 2 * last), 1, maximumBlocks);
     // A block usually also processes the wedge at its end, which is as much work as its own stages leave out at both
-    // ends. The first block leaves out nothing at its start, and the last has no wedge at its end: the borders
+    // ends. The first block leaves out nothing at its start, and the last has no wedge at its end, so the borders
     // compensate.
     const auto border = [&](std::size_t block) {
         return block == 0 ? 0 : block == blocks ? slabs : block * slabs / blocks - last / 2;
     };
-    // A wedge waits for the end of the block before it and the start of the block after it; the later of the two runs
-    // it.
+    // A wedge needs the end of the block before it and the start of the block after it; whichever of the two comes
+    // later processes it.
     const std::unique_ptr<std::atomic<int>[]> ready(new std::atomic<int>[blocks]());
     const auto sideIsDone = [&](std::size_t wedge) {
         if (ready[wedge].fetch_add(1) == 0) return;

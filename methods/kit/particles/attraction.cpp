@@ -144,7 +144,7 @@ AttractionTree::Sum AttractionTree::addCell(std::uint32_t first, std::uint32_t c
     }
     const bool isLeaf = count <= bodiesPerLeaf || level == levels;
     cells_.push_back({0, 0, 0, static_cast<float>(count), edge, first, count, 0, isLeaf});
-    // A leaf with more bodies than a group, at one place, is divided among several walks (see `pull`).
+    // A leaf with more bodies than a group, all at one position, is divided among several walks (see `pull`).
     const bool endsGroup = isLeaf || count <= bodiesPerGroup;
     const bool isWithinGroup = !groups_.empty() && first < cells_[groups_.back()].first + cells_[groups_.back()].count;
     if (endsGroup && !isWithinGroup) groups_.push_back(place);

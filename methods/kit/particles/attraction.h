@@ -1,10 +1,10 @@
-// The attraction of each of some points by many bodies: the sum over all pairs, and the same with a tree.
+// The attraction of points by many bodies: the sum over all pairs, or with a tree.
 //
 //     a_i = k·Σ_j m_j·f(s_ij)/s_ij·(x_j − x_i),   s² = |x_j − x_i|² + ε²
 //
 // A point's pull on itself is 0, because of the softening.
 // Units: m; k as in attraction_law.h. Threads: pure functions; `AttractionTree` spreads work over the current oneTBB
-// arena, and its result does not depend on their number. Source: Thesis, 5.4.2 and 5.4.3; BarnesHut1986.
+// arena, and its result does not depend on the number of threads. Source: Thesis, 5.4.2 and 5.4.3; BarnesHut1986.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct Attracted {
     float *accelerationX, *accelerationY, *accelerationZ;
 };
 
-/// Adds the pull of all bodies, in their order: bit-identical however the points are divided.
+/// Adds the pull of all bodies, in their order: bit-identical for any division of the points.
 void addPull(const Attraction& attraction, const Bodies& bodies, const Attracted& points);
 
 /// How distant bodies are treated: combined into one at their centre of mass, or ignored.
@@ -70,7 +70,7 @@ class AttractionTree {
     void collect(const Cell& group, float openingAngle, FarBodies farBodies, Sources& sources) const;
 
     std::vector<Cell> cells_;                                     ///< depth first
-    std::vector<std::uint32_t> groups_;                           ///< cells that hold the points of one walk
+    std::vector<std::uint32_t> groups_;                           ///< cells with the points of one walk
     std::vector<std::pair<std::uint64_t, std::uint32_t>> order_;  ///< Morton code and index, sorted
     std::vector<float> x_, y_, z_;                                ///< in the tree's order
 };

@@ -2,7 +2,7 @@
 //
 // The thesis's laws are infinite at d = 0, and 1/log d also at d = 1. Here s = √(d² + ε²) replaces d (Plummer1911): the
 // attraction is largest near d = ε, and 0 at the point itself, where its direction is undefined. 1/log d is evaluated
-// at 1 + s, which has no pole at 1 and no change of sign; as printed, it is limited to ±20, reached where
+// at 1 + s, which has no pole at 1 and no change of sign. As printed, it is limited to ±20, which it reaches where
 // |log s| < 0.05.
 //
 // Units: m; k in m/s² times what f needs. Threads: pure. Source: Thesis, 5.2.2.

@@ -1,10 +1,10 @@
-// The frame of a solid that moves through a step, and ways as seen from it.
+// The frame of a solid that moves during a step, and paths relative to it.
 //
-// The frame goes on a straight line from its pose at the step's begin to that at its end, M(t) = (1 − t)·M0 + t·M1, so
-// that each point of the solid has one velocity for the whole step, (M1·p − M0·p)/Δt. A way that ends outside a solid
-// in one step begins there in the next, bit for bit.
+// The frame moves linearly from its pose at the step's start to that at its end, M(t) = (1 − t)·M0 + t·M1, so that each
+// point of the solid has one velocity for the whole step, (M1·p − M0·p)/Δt. A path that ends outside of a solid in one
+// step starts at the same position in the next, bit for bit.
 //
-// Units: m, m/s, s. Frame: world, unless it says local. Threads: const members are safe from any.
+// Units: m, m/s, s. Frame: world, unless named local. Threads: const members are safe from any.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -14,14 +14,14 @@ namespace dustbench::particles {
 
 class CarriedFrame {
  public:
-    /// Moves on to the pose at a step's end. The first time, the pose at the begin is that at the end less the way that
-    /// `velocity` goes.
+    /// Sets the pose at a step's end. The first call extrapolates the pose at the start backwards with
+    /// `velocity`.
     void moveTo(const glm::dmat4& toWorld, const glm::dvec3& velocity, double stepSeconds);
 
-    /// `seconds`: how long before the step's end.
+    /// `seconds`: time before the step's end.
     [[nodiscard]] glm::vec3 toLocal(const glm::vec3& point, float seconds) const;
     [[nodiscard]] glm::vec3 toWorld(const glm::vec3& local, float seconds) const;
-    /// Rotates alone.
+    /// Rotates only.
     [[nodiscard]] glm::vec3 directionToWorld(const glm::vec3& local, float seconds) const;
     [[nodiscard]] glm::vec3 velocityOf(const glm::vec3& local) const;
 

@@ -12,7 +12,7 @@ namespace dustbench::particles {
 /// Particles per chunk: twelve columns and the scratch of an update are 46 KiB, which fits the second-level cache.
 inline constexpr std::size_t chunkSize = 512;
 
-/// Pointers to `count` particles. All arrays are distinct, so that kernels may declare them `__restrict`.
+/// Pointers to `count` particles. The arrays never overlap, so that kernels may declare them `__restrict`.
 struct Chunk {
     std::size_t first = 0;  ///< index in the store; 0 for newborns
     std::size_t count = 0;
@@ -22,7 +22,7 @@ struct Chunk {
     float *age = nullptr, *lifetime = nullptr;
     float* radius = nullptr;
     float* opacity = nullptr;
-    float *red = nullptr, *green = nullptr, *blue = nullptr;  ///< null while one colour applies to all
+    float *red = nullptr, *green = nullptr, *blue = nullptr;  ///< null if one colour applies to all
 
     // Valid only during this update:
     float* share = nullptr;  ///< age / lifetime, 0..1

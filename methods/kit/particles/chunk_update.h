@@ -12,9 +12,9 @@
 
 namespace dustbench::particles {
 
-/// Storage for values that live only during an update; allocated on the stack of the updating thread.
+/// Storage for temporary values of an update, on the stack of the updating thread.
 struct alignas(64) ChunkScratch {
-    ChunkScratch() {}  // NOLINT: left uninitialised on purpose, each step writes what it reads
+    ChunkScratch() {}  // NOLINT: deliberately uninitialised; each step writes before it reads
 
     std::array<std::array<float, chunkSize>, 10> values;
     std::array<std::uint8_t, chunkSize> dead;
@@ -24,7 +24,7 @@ struct alignas(64) ChunkScratch {
 };
 
 /// Clears the acceleration, then applies age, life, colour, shading, size, forces, integration. Sets `chunk.dead`.
-/// `surfaces`: those of the parts.
+/// `surfaces`: the surfaces of `parts`.
 void updateChunk(Chunk& chunk, const PartList& parts, const MetSurfaces& surfaces, const Step& step);
 
 /// Sets position, velocity, lifetime, colour and size of newborns whose serial, age and moment are set.

@@ -17,9 +17,9 @@ class ColourPart : public Part {
     using Part::Part;
     [[nodiscard]] PartKind kind() const final { return PartKind::colour; }
 
-    /// The colour shared by all particles, if there is one; colour columns are then not kept.
+    /// The colour shared by all particles, if there is one; colour columns are then omitted.
     [[nodiscard]] virtual std::optional<glm::vec3> colourOfAll(const Step&) const { return std::nullopt; }
-    /// Writes opacity, and colour if the chunk has colours. Called at every step if there is shading.
+    /// Writes opacity, and colour if the chunk has colours. With shading, called at every step.
     virtual void initialise(Chunk& chunk, const Step& step) const = 0;
     /// Writes the values that change with age (`chunk.share`).
     virtual void update(Chunk& chunk, const Step& step) const = 0;

@@ -9,7 +9,7 @@ namespace dustbench::particles {
 namespace {
 
 /// Distance from the surface after a contact, so that rounding does not put the particle behind it: 1e-6 of the
-/// coordinates in the test, eight times their rounding.
+/// coordinates in the test, eight times their rounding error.
 float clearance(const glm::vec3& from, const glm::vec3& to, float extentMetres) {
     const glm::vec3 sum = glm::abs(from) + glm::abs(to);
     return 1e-6f * (sum.x + sum.y + sum.z + extentMetres);
@@ -47,7 +47,7 @@ struct Way {
     bool dead = false;
 };
 
-/// The first contact of the rest of a way, or none; `by` is the surface.
+/// The first contact on the rest of a path, or none; `by` receives the surface.
 float meetNext(const Way& way, const MetSurfaces& surfaces, std::uint8_t* by) {
     const Ways one{1, &way.from.x, &way.from.y, &way.from.z, &way.to.x, &way.to.y, &way.to.z, &way.seconds};
     float scratch, share;
@@ -55,7 +55,7 @@ float meetNext(const Way& way, const MetSurfaces& surfaces, std::uint8_t* by) {
     return share;
 }
 
-/// Moves to the contact at `share` of the way. The rest of the way begins there.
+/// Moves to the contact at `share` of the path, where the rest of the path starts.
 Touch goTo(Way& way, float share, const Surface& surface) {
     const Touch touch = surface.touchAt({way.from, way.to, way.seconds, share});
     way.from = touch.point + clearance(way.from, way.to, surface.extentMetres()) * touch.normal;
@@ -64,7 +64,7 @@ Touch goTo(Way& way, float share, const Surface& surface) {
     return touch;
 }
 
-/// Ends a way at its place on the surface, which carries it for the rest of the step: as far as another one lets it.
+/// Ends a path at its point on the surface, which carries it for the rest of the step, until another surface blocks it.
 void ride(Way& way, const Touch& touch, const MetSurfaces& surfaces) {
     if (touch.velocity == glm::vec3(0)) return;
     way.to = way.from + way.seconds * touch.velocity;
@@ -73,7 +73,7 @@ void ride(Way& way, const Touch& touch, const MetSurfaces& surfaces) {
         (void)goTo(way, share, *surfaces.all()[by].surface);
 }
 
-/// Goes on from a contact at `share` with surface `by`, and from all that follow.
+/// Continues from a contact at `share` with surface `by`, and from all later contacts.
 void follow(Way& way, float share, std::uint8_t by, const MetSurfaces& surfaces) {
     for (int contacts = 1; share <= 1; ++contacts) {
         const MetSurface& met = surfaces.all()[by];
@@ -103,7 +103,7 @@ MetSurfaces::MetSurfaces(const PartList& parts) {
         if (!surface) return;
         if (count_ == maximum)
             throw InputError("particle system: more than " + std::to_string(maximum) + " surfaces, allowed: at most " +
-                             std::to_string(maximum) + ", or one mesh of them all");
+                             std::to_string(maximum) + ", or one mesh with all of them");
         surfaces_[count_++] = {surface, contact};
     };
     for (const auto& force : parts.forces()) add(force->surface(), force->contact());

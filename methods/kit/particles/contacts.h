@@ -13,17 +13,17 @@
 
 namespace dustbench::particles {
 
-/// Where particles begin their path in a step, and how long it takes.
+/// Where particles start their path in a step, and its duration.
 struct alignas(64) WayBegins {
-    WayBegins() {}  // NOLINT: left uninitialised on purpose, `take` writes what is read
+    WayBegins() {}  // NOLINT: deliberately uninitialised; `take` writes all that is read
 
-    /// `seconds`: of each particle, or one for all if `each` is false.
+    /// `seconds`: one value per particle if `each`, otherwise one for all.
     void take(const Chunk& chunk, const float* seconds, bool each);
 
     std::array<float, chunkSize> x, y, z, seconds;
 };
 
-/// The surfaces of a system's forces and lives, in the order of the lists.
+/// A surface of a system's forces or lives; they are kept in the order of the lists.
 struct MetSurface {
     const Surface* surface;
     Contact contact;
@@ -40,10 +40,10 @@ class MetSurfaces {
     std::size_t count_ = 0;
 };
 
-/// Most contacts of a particle in one step; after the last it stays at its place on the surface, which carries it.
+/// Maximum number of contacts of a particle in one step; after the last, the surface carries it.
 inline constexpr int maximumContacts = 8;
 
-/// Resolves contacts. The chunk holds the positions that the particles would reach without any.
+/// Resolves contacts. On entry, the chunk has the positions that the particles would reach without contacts.
 void meetSurfaces(Chunk& chunk, const WayBegins& begins, const MetSurfaces& surfaces);
 
 }  // namespace dustbench::particles

@@ -37,7 +37,7 @@ glm::vec3 Deformation::velocityNear(const glm::vec3& point, float seconds, float
     const glm::vec3 velocity = velocityAtBegin(point, wayMetres);
     const float since = static_cast<float>(stepSeconds_) - seconds;
     if (since <= 0 || velocity == glm::vec3(0)) return velocity;
-    return velocityAtBegin(point - since * velocity, wayMetres);  // where the surface had it at the begin
+    return velocityAtBegin(point - since * velocity, wayMetres);  // its position on the surface at the start
 }
 
 glm::vec3 Deformation::velocityAtBegin(const glm::vec3& point, float wayMetres) const {

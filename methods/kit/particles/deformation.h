@@ -1,8 +1,8 @@
-// A mesh that changes its shape during a step, as a particle near it sees it.
+// A mesh that deforms during a step, relative to a particle near it.
 //
-// Seen from a point of the surface the surface stands still: a particle's way begins where the nearest point of the
-// surface carries its begin until the step's end, and is then tested against the shape at that end. So what begins
-// outside the old shape begins outside the new one.
+// Relative to a point of the surface, the surface is at rest. The start of a particle's path is moved with the nearest
+// point of the surface until the step's end; the path is then tested against the shape at the end. A path that starts
+// outside of the old shape therefore starts outside of the new one.
 //
 // Units: m, m/s, s. Frame: the mesh's. Owns: trees of both shapes. Threads: const members are safe from any.
 #pragma once
@@ -16,15 +16,15 @@ namespace dustbench::particles {
 
 class Deformation {
  public:
-    /// Moves on to the shape at a step's end. The first time, the shape at its begin is that less the way that the
-    /// velocities go. Throws InputError as meshes::TriangleTree does.
+    /// Sets the shape at a step's end. The first call extrapolates the shape at the start backwards with the
+    /// velocities. Throws InputError as meshes::TriangleTree does.
     void moveTo(const std::shared_ptr<const scene::DeformedMesh>& shape, double stepSeconds);
 
-    /// The velocity of the surface where it is nearest to a point `seconds` before the step's end; 0 where it is
-    /// farther away than anything can come that goes `wayMetres`.
+    /// The velocity of the surface at the point nearest to `point`, `seconds` before the step's end; 0 if the surface
+    /// is out of reach of a path of `wayMetres`.
     [[nodiscard]] glm::vec3 velocityNear(const glm::vec3& point, float seconds, float wayMetres) const;
 
-    /// The velocity of the point of the surface that is here at the step's end.
+    /// The velocity of the surface point that is here at the step's end.
     [[nodiscard]] glm::vec3 velocityOfPointAtEnd(const glm::vec3& point) const;
 
     [[nodiscard]] const meshes::TriangleTree& treeAtEnd() const { return atEnd_; }
@@ -40,7 +40,7 @@ class Deformation {
     std::vector<glm::vec3> positionsAtBegin_;
     meshes::TriangleTree atBegin_, atEnd_;
     double stepSeconds_ = 1;
-    float farthestMetres_ = 0;  ///< that a vertex goes in this step
+    float farthestMetres_ = 0;  ///< maximum distance that a vertex moves in this step
 };
 
 }  // namespace dustbench::particles

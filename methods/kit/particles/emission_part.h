@@ -25,9 +25,9 @@ class EmissionPart : public Part {
     /// Called once per step; `step.particlesPerPuff` multiplies every rate. May keep state for the next step (an
     /// accumulator, a time counter).
     [[nodiscard]] virtual Births births(const Step& step) = 0;
-    /// Without a vehicle and at the emission's own rate: for estimates of the memory needed.
+    /// Without a vehicle, at the emission's own rate. Used to estimate the memory needed.
     [[nodiscard]] virtual double meanRatePerSecond() const { return 0; }
-    /// Whether its own rate is 0 at any speed.
+    /// True if the emission's own rate is 0 at any speed.
     [[nodiscard]] virtual bool neverEmits() const { return false; }
 };
 

@@ -8,14 +8,14 @@ namespace {
 
 struct Sum {
     glm::dvec3 colour{0};
-    glm::dvec3 place{0};  ///< weighted by the luminosity
+    glm::dvec3 place{0};  ///< position, weighted by the luminosity
     double luminosity = 0;
 };
 
 }  // namespace
 
 std::vector<EmittedLight> emittedLights(const Puffs& puffs, int parts, float perMetre) {
-    if (parts < 1) throw std::invalid_argument("emittedLights: particles are divided into at least one part");
+    if (parts < 1) throw std::invalid_argument("emittedLights: `parts` must be 1 or more");
     std::vector<Sum> sums(static_cast<std::size_t>(parts));
     for (std::size_t i = 0; i < puffs.size(); ++i) {
         const glm::dvec3 colour = puffs.colour(i);

@@ -1,9 +1,9 @@
-// The light that particles emit, as a few point lights: fire lights its surroundings.
+// Approximates the light that particles emit by a few point lights: fire lights its surroundings.
 //
 //     colour = k·Σ C·α·size³
 //     position = Σ x·L / Σ L,   L = (R + G + B)·α·size³
 //
-// The particles are divided by age into groups with one light each: if the wind bends a fire, the young particles light
+// The particles are divided by age into groups with one light each. If the wind bends a fire, the young particles light
 // from its base and the old ones from its tip.
 //
 // Units: m; colours linear RGB in m², the intensity that scene::PointLight takes. Frame: world. Threads: pure; sums are

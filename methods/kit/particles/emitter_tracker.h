@@ -19,7 +19,7 @@ class EmitterTracker {
 
  private:
     std::array<Emitter, 4> wheels_;
-    bool known_ = false;  ///< wheels_ holds the end of the previous step
+    bool known_ = false;  ///< wheels_ is the end of the previous step
 };
 
 }  // namespace dustbench::particles

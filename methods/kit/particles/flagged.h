@@ -1,4 +1,4 @@
-// Iterates over sparse flags that are set, testing eight at a time.
+// Iterates over sparse flags, testing eight at a time.
 //
 // Threads: pure.
 #pragma once

@@ -1,7 +1,7 @@
-// The kind of part that moves particles: through the air it stirs, by acceleration, or by contact.
+// The kind of part that moves particles: through moving air, by acceleration, or by contact.
 //
-// Within a step all forces first `blow`, then all `push`; the particles move, as far as surfaces allow; then all
-// `touch`. The order of the list therefore matters only among forces of the same sort. Source: Thesis, 3.1.3 and 5.1.
+// In each step all forces first `blow`, then all `push`. The particles move, as far as surfaces allow; then all forces
+// `touch`. The order of the list therefore matters only among forces of the same type. Source: Thesis, 3.1.3 and 5.1.
 #pragma once
 
 #include "methods/kit/particles/chunk.h"
@@ -18,8 +18,8 @@ class ForcePart : public Part {
     using Part::Part;
     [[nodiscard]] PartKind kind() const final { return PartKind::force; }
 
-    /// Called once per step before all chunks, to compute values shared by all particles, or from all of them: the
-    /// store holds the particles at the beginning of the step and must not be read later in the step.
+    /// Called once per step before all chunks, to compute values shared by all particles, or from all of them. The
+    /// store contains the particles at the start of the step and must not be read later in the step.
     virtual void begin(const Step&, const ParticleStore&) {}
     /// Adds to the air's velocity, `chunk.airX`, `…Y`, `…Z`.
     virtual void blow(Chunk&, const Step&) const {}
@@ -28,11 +28,11 @@ class ForcePart : public Part {
     /// Corrects position and velocity of particles that have moved through a surface; the old position is x − v·dt.
     virtual void touch(Chunk&, const Step&) const {}
 
-    /// The surface that particles cannot pass, between `push` and `touch`; null: none.
+    /// The surface that particles cannot pass, applied between `push` and `touch`; null: none.
     [[nodiscard]] virtual const Surface* surface() const { return nullptr; }
     [[nodiscard]] virtual Contact contact() const { return {}; }
 
-    /// Memory held, beyond the part itself.
+    /// Memory allocated in addition to the part object.
     [[nodiscard]] virtual std::size_t bytes() const { return 0; }
 };
 

@@ -1,5 +1,5 @@
-// Measures the thesis's forces in turn with their references: two discs with the shared dust's update, the sum of pairs
-// with a bare loop, the tree with the sum of pairs.
+// Measures the thesis's forces alternately with their references: two discs with the shared dust's update, the sum of
+// pairs with a bare loop, the tree with the sum of pairs.
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 

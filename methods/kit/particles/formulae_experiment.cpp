@@ -62,7 +62,7 @@ double momentumOverImpulse(double mass, double force, const std::function<double
     return mass * velocity / (force * steps * stepSeconds);
 }
 
-/// The sum of Bernstein polynomials as it stands: Σ C(N, i)·(1 − t)^(N−i)·t^i·P_i.
+/// The sum of Bernstein polynomials as written: Σ C(N, i)·(1 − t)^(N−i)·t^i·P_i.
 double bernsteinCurve(std::span<const float> controls, double t) {
     const auto degree = static_cast<int>(controls.size()) - 1;
     double sum = 0, binomial = 1;
@@ -80,7 +80,7 @@ std::array<float, 6> sixControlsOf(std::uint64_t seed, std::int64_t draw) {
     return {a[0], a[1], a[2], a[3], b[0], b[1]};
 }
 
-/// Each step's points have names of their own for the compiler, which then keeps them in registers.
+/// Each step's points have separate names, so that the compiler keeps them in registers.
 template <std::size_t count>
 float casteljau(const std::array<float, count>& points, float t) {
     if constexpr (count == 1) {
@@ -92,8 +92,8 @@ float casteljau(const std::array<float, count>& points, float t) {
     }
 }
 
-// One call for each particle, as in the thesis's program: else the compiler evaluates many particles at once by the one
-// and not by the other.
+// One call per particle, as in the thesis's program. Otherwise the compiler evaluates many particles at once with one
+// algorithm, but not with the other.
 template <std::size_t count>
 [[gnu::noinline]] float callCasteljau(const std::array<float, count>& points, float t) {
     return casteljau(points, t);
@@ -104,7 +104,7 @@ template <std::size_t count>
 }
 
 /// Time of de Casteljau's algorithm over that of the sum, for curves of `count` points at many moments; `again`: over
-/// its own.
+/// its own time.
 template <std::size_t count>
 Finding timeRatio(std::string quantity, std::uint64_t seed, bool again) {
     constexpr std::int64_t moments = 200'000;
@@ -120,7 +120,7 @@ Finding timeRatio(std::string quantity, std::uint64_t seed, bool again) {
         return findings::secondsOf([&] {
             float sum = 0;
             for (const float t : times) sum += curve(t);
-            volatile float needed = sum;  // or the compiler moves the work out of the time
+            volatile float needed = sum;  // otherwise the compiler moves the work out of the timed section
             static_cast<void>(needed);
         });
     };
@@ -195,7 +195,7 @@ std::vector<Finding> measureCurveTimes(std::uint64_t seed) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "Measures what two formulae do that the thesis prints wrongly: weights of Bézier curves, a = m·ΣF.";
+    info.summary = "Measures two formulae that the thesis prints with errors: weights of Bézier curves, a = m·ΣF.";
     info.source = "Thesis";
     info.run = [](ExperimentContext& context) {
         std::vector<Finding> findings = measureFormulae(context.seed(), 10'000);

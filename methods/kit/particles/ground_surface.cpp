@@ -6,7 +6,7 @@
 namespace dustbench::particles {
 namespace {
 
-/// y = 0.
+/// Contacts with the plane y = 0.
 void meetPlane(std::size_t count, const float* __restrict fromY, const float* __restrict toY, float* __restrict share) {
     for (std::size_t i = 0; i < count; ++i) {
         const float at = fromY[i] > 0.0f ? fromY[i] / (fromY[i] - toY[i]) : 0.0f;
@@ -14,12 +14,12 @@ void meetPlane(std::size_t count, const float* __restrict fromY, const float* __
     }
 }
 
-/// A way over the height field, in units of its grid.
+/// A path over the height field, in units of its grid.
 struct GridWay {
     const scene::Terrain& terrain;
     glm::dvec3 from, way;  ///< x and z in cells, y in metres
 
-    /// Height above the surface of the cell (column, row), at share s; the surface goes on level beyond the edge.
+    /// Height above the surface of the cell (column, row) at share s; beyond the edge the surface continues level.
     [[nodiscard]] double above(double s, int column, int row) const {
         const auto columns = static_cast<std::size_t>(terrain.columns());
         const double u = std::clamp(from.x + s * way.x, 0.0, static_cast<double>(terrain.columns() - 1)) - column;
@@ -29,7 +29,7 @@ struct GridWay {
         const double far = (1 - u) * static_cast<double>(h[columns]) + u * static_cast<double>(h[columns + 1]);
         return from.y + s * way.y - ((1 - v) * near + v * far);
     }
-    /// The least s > `after` at which a coordinate reaches a whole number; at most 1.
+    /// The smallest s > `after` at which a coordinate reaches a whole number; at most 1.
     [[nodiscard]] double nextLine(double after) const {
         double next = 1;
         for (const int axis : {0, 2}) {
@@ -44,13 +44,13 @@ struct GridWay {
     }
 };
 
-/// The first s in [a, b] where the parabola through f(a), f(middle), f(b) falls below 0; negative: none. Within a cell
-/// the height above a bilinear surface is such a parabola, exactly.
+/// The first s in [a, b] where the parabola through f(a), f(middle), f(b) falls below 0; negative: none. Within a cell,
+/// the height above a bilinear surface is exactly such a parabola.
 double fallsBelow(double fa, double fm, double fb) {
     const double c = fa, b = 4 * fm - 3 * fa - fb, a = 2 * (fa + fb) - 4 * fm;  // f = a·t² + b·t + c, t = 0..1
     const double square = b * b - 4 * a * c;
     if (square < 0) return -1;
-    // Of the two roots the one at which f falls: 2c / (−b + √…).
+    // The root at which f falls: 2c / (−b + √…).
     const double t = 2 * c / (-b + std::sqrt(square));
     return t >= 0 && t <= 1 ? t : -1;
 }
@@ -70,7 +70,7 @@ float meetField(const glm::vec3& from, const glm::vec3& to, const scene::Terrain
             std::clamp(std::floor(way.from.z + middle * way.way.z), 0.0, static_cast<double>(terrain.rows() - 2)));
         const double before = way.above(s, column, row), after = way.above(end, column, row);
         if (s == 0 && before <= 0) {
-            if (after < before) return 0;  // what is below and goes deeper is at the surface
+            if (after < before) return 0;  // starts below and moves deeper: contact at once
         } else if (const double t = fallsBelow(before, way.above(middle, column, row), after); t >= 0) {
             return static_cast<float>(s + t * (end - s));
         }

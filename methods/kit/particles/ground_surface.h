@@ -1,6 +1,6 @@
-// The scene's ground as a surface: met from above; what is below may rise.
+// The scene's ground as a surface: hit from above; particles below it may rise.
 //
-// Units: m. Frame: world. Threads: pure. The surface is the bilinear one of scene::Terrain.
+// Units: m. Frame: world. Threads: pure. The surface is bilinear, as in scene::Terrain.
 #pragma once
 
 #include "methods/contract/terrain.h"
@@ -8,7 +8,7 @@
 
 namespace dustbench::particles {
 
-/// Writes the share at which each way first meets the ground, or Surface::none.
+/// Writes the share at which each path first hits the ground, or Surface::none.
 void meetGround(const Ways& ways, const scene::Terrain& terrain, float* share);
 
 }  // namespace dustbench::particles

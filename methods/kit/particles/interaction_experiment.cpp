@@ -49,8 +49,8 @@ struct Bodies3 {
     }
 };
 
-/// Returns the error over the bodies from 0 to `count`. They are unordered and so a random sample. The interval is that
-/// of the mean square.
+/// Returns the error over the bodies from 0 to `count`. They are unordered, so they form a random sample. The interval
+/// is that of the mean square.
 Finding errorOf(std::string quantity, const Bodies3& exact, const Bodies3& tree, std::size_t count) {
     double sum = 0, squares = 0, size = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -67,14 +67,14 @@ Finding errorOf(std::string quantity, const Bodies3& exact, const Bodies3& tree,
             static_cast<std::int64_t>(count)};
 }
 
-/// How many times as large one error is as another, with the interval that both of theirs allow.
+/// The ratio of two errors, with the interval that follows from both intervals.
 Finding ratioOfErrors(std::string quantity, const Finding& above, const Finding& below) {
     return {std::move(quantity), above.value / below.value, above.low / below.high, above.high / below.low,
             above.samples};
 }
 
-/// Of a force that falls like 1/d³: taken together at the angle at which the square's is measured, and ignored there
-/// and at smaller angles, which leave fewer bodies out.
+/// For a force that falls like 1/d³: combined at the angle at which the error of 1/d² is measured, and ignored there
+/// and at smaller angles, which leave out fewer bodies.
 void measureCube(std::uint64_t seed, std::size_t count, std::size_t sample, std::vector<Finding>& findings) {
     Bodies3 exact(count, seed), tree(count, seed);
     exact.pullPairs(0, sample, byCube);
@@ -110,8 +110,8 @@ std::vector<double> timesOf(const std::vector<double>& counts, std::uint64_t see
     return seconds;
 }
 
-/// Returns the number at which the ratio of the times, interpolated over the logarithm of the number, passes 1; the
-/// interval is given by the two adjacent counts.
+/// Returns the number of bodies at which the ratio of the times, interpolated over the logarithm of the number, passes
+/// 1; the interval is given by the two adjacent counts.
 Finding crossover(std::uint64_t seed) {
     const std::vector<double> counts{128, 256, 512, 1024, 2048, 4096, 8192};
     const auto pairs = timesOf(counts, seed, false), tree = timesOf(counts, seed, true);
@@ -127,7 +127,7 @@ Finding crossover(std::uint64_t seed) {
     return {"crossover_bodies", end, end, end, repetitions};
 }
 
-/// Of 256 bodies: to build a tree takes longer than all pairs.
+/// For 256 bodies: building a tree takes longer than all pairs.
 Finding speedupOfFew(std::uint64_t seed) {
     Bodies3 exact(256, seed), tree(256, seed);
     std::vector<double> speedups;
@@ -195,7 +195,7 @@ std::vector<Finding> measureErrors(std::uint64_t seed) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "Measures the cost and the accuracy of forces between particles, by all pairs and by a tree.";
+    info.summary = "Measures cost and accuracy of forces between particles, by all pairs and by a tree.";
     info.source = "Thesis";
     info.run = [](ExperimentContext& context) {
         std::vector<Finding> findings = measureErrors(context.seed());

@@ -20,7 +20,7 @@ TEST(InteractionExperiment, ErrorGrowsWithTheAngleAndWorkLessThanItsSquare) {
         EXPECT_GT(found.at("error_exponent").value, 1.5);
         EXPECT_LT(found.at("error_exponent").value, 3.5);
         EXPECT_GT(found.at("rms_ignored_0.6").low, 0.3);
-        // A force that falls faster has its error nearer by: those taken together matter less, and so do those ignored.
+        // With a force that falls faster, the error comes from nearer bodies: combined and ignored ones matter less.
         EXPECT_LT(found.at("rms_cube_ignored_0.6").high, found.at("rms_ignored_0.6").low);
         EXPECT_LT(found.at("rms_cube_ignored_0.1").high, found.at("rms_cube_ignored_0.6").low);
         for (const char* name : {"rms_cube_ignored_0.1", "rms_cube_ignored_0.3", "rms_cube_ignored_0.6"})

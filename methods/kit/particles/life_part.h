@@ -26,7 +26,7 @@ class LifePart : public Part {
 
     /// The mean lifetime, if this part sets lifetimes.
     [[nodiscard]] virtual std::optional<double> meanLifetimeSeconds() const { return std::nullopt; }
-    /// Writes `lifetime`; only for the part that sets lifetimes.
+    /// Writes `lifetime`; implemented only by parts that set lifetimes.
     virtual void giveLifetimes(Newborns&, const Step&) const {}
 };
 

@@ -1,4 +1,4 @@
-// Tests that particles meet solids that move and deform.
+// Tests that particles collide with solids that move and deform.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ scene::Mesh ball(int rounds) {
     return mesh;
 }
 
-/// A ball stretched along z, that goes to and fro and turns, or that breathes.
+/// A ball stretched along z that moves back and forth and turns, or that pulsates.
 struct World {
     explicit World(scene::SolidMotion motion, int rounds = 2) {
         scene.solids = {{"ball", std::make_shared<scene::Mesh>(ball(rounds)), motion}};
@@ -76,7 +76,7 @@ struct World {
         state.solids = {{pose, shape}};
         return state;
     }
-    /// How far a point is inside of the ball's surface, which is not quite convex; below 0 outside.
+    /// Depth of a point below the ball's surface, which is not quite convex; negative outside.
     [[nodiscard]] double depth(const scene::SceneState& state, const glm::vec3& point) const {
         const scene::Mesh& mesh = scene::solidMesh(scene, state, 0);
         const glm::dmat4 toWorld(scene::solidPose(scene, state, 0).toWorld);
@@ -142,7 +142,7 @@ TEST(MovingSolids, NoParticleGetsIntoASolidThatDeforms) {
 }
 
 TEST(MovingSolids, ASurfaceThatSwellsTakesParticlesAlong) {
-    // At rest before the ball's pole along x, which is at 1 + 0.4 sin 4t: v' = (1 + e)·dx/dt at the moment of contact.
+    // At rest at the ball's pole along x, which is at 1 + 0.4 sin 4t: v' = (1 + e)·dx/dt at the moment of contact.
     const World world(scene::SolidMotion::deforms, 4);
     for (const double e : {0.0, 0.5}) {
         auto system = movingSwarm(1, "[1.2, 3, 0]", 0, 0, "restitution = " + std::to_string(e));

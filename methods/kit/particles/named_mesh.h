@@ -1,4 +1,4 @@
-// The mesh that a part names: `mesh = "hare"`, or a file's path.
+// The mesh named in a part: `mesh = "hare"`, or a file's path.
 //
 // Units: m. Frame: the mesh's own, scaled.
 #pragma once

@@ -1,4 +1,4 @@
-// Columns for a few newborns, on the stack of the thread that initialises them.
+// Columns for a few newborns, on the stack of the initialising thread.
 //
 // Units: m, s. Owns: its columns. Threads: one block, one thread.
 #pragma once
@@ -16,7 +16,7 @@ class NewbornBlock {
  public:
     static constexpr std::size_t size = 128;
 
-    NewbornBlock() {}  // NOLINT: left uninitialised on purpose, the parts write every column
+    NewbornBlock() {}  // NOLINT: deliberately uninitialised; the parts write every column
 
     /// Births `first`..`first + count` of a step, numbered from `serial` on, with moment and age set.
     [[nodiscard]] Newborns newborns(std::size_t first, std::size_t count, std::uint64_t serial, const Births& births,

@@ -8,14 +8,14 @@
 
 namespace dustbench::particles {
 
-/// `chunk.age` is the time between birth and the end of the step; `moment` is 0 at the step's begin and 1 at its end.
+/// `chunk.age` is the time between birth and the end of the step; `moment` is 0 at the step's start and 1 at its end.
 struct Newborns {
     Chunk chunk;
     const float* moment;
     const Emitter* const*
-        emitter;  ///< of each newborn: emitters take turns, so that each gets an equal share, evenly spaced in time
+        emitter;  ///< of each newborn: emitters alternate, so that each gets an equal share, evenly spaced
 
-    /// Position of newborn `i`'s emitter at its birth, on the straight path of the step: the centre of the source.
+    /// Position of newborn `i`'s emitter at its birth, on its straight path during the step: the centre of the source.
     [[nodiscard]] glm::vec3 centre(std::size_t i) const {
         return glm::mix(emitter[i]->from, emitter[i]->to, moment[i]);
     }

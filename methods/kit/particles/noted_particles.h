@@ -1,7 +1,7 @@
-// Records particles affected by an event in a step, such as death: noted per chunk on any thread, then collected in
+// Records the particles affected by an event in a step, such as death: noted per chunk on any thread, then collected in
 // storage order.
 //
-// Owns: its lists, booked on a ledger: two bytes per particle, and four per noted one.
+// Owns: its lists, booked on a ledger: two bytes per particle, and four per recorded one.
 // Threads: `note` from any thread, one chunk each.
 #pragma once
 
@@ -18,7 +18,7 @@ class DUSTBENCH_API NotedParticles {
  public:
     explicit NotedParticles(MemoryLedger& ledger, const char* account = "particle deaths");
 
-    /// Reserves room for this many particles.
+    /// Reserves capacity for this many particles.
     void prepare(std::size_t particles);
     /// Notes those of the chunk's `count` particles whose flag is 1 (the others are 0).
     void note(std::size_t chunk, const std::uint8_t* flags, std::size_t count);
@@ -26,8 +26,8 @@ class DUSTBENCH_API NotedParticles {
     [[nodiscard]] std::span<const std::uint32_t> collect();
 
  private:
-    LedgerVector<std::uint16_t> within_;  ///< of chunk c: positions within it, from c·chunkSize on
-    LedgerVector<std::uint32_t> counts_;  ///< of chunk c: number noted
+    LedgerVector<std::uint16_t> within_;  ///< for chunk c: positions within it, from c·chunkSize on
+    LedgerVector<std::uint32_t> counts_;  ///< for chunk c: number of noted particles
     LedgerVector<std::uint32_t> indices_;
 };
 

@@ -13,7 +13,7 @@ void linearOpacity(std::size_t count, const float* __restrict share, float* __re
 
 void bezierOpacity(std::size_t count, const float* __restrict share, float* __restrict opacity,
                    const maths::CubicPolynomial<float> curve) {
-    // Rounding may take a curve that ends at 0 slightly below it.
+    // Rounding may make a curve that ends at 0 slightly negative.
     for (std::size_t i = 0; i < count; ++i) {
         const float value = curve(share[i]);
         opacity[i] = value > 0.0f ? value : 0.0f;
@@ -32,7 +32,7 @@ float valueOf(const ParameterValues& values, const char* name) {
 
 void OpacityCurve::declare(ParameterSet& set) {
     set.choice("opacity_curve", Form::linear, forms,
-               "opacity over life: a straight line from start to end, or a cubic curve with two values between")
+               "opacity over life: linear from start to end, or a cubic curve with two values in between")
         .real("opacity_start", 0.25, 0, maximumOpacity, "", "peak opacity at birth")
         .real("opacity_early", 0.17, 0, maximumOpacity, "", "second control value of the curve")
         .real("opacity_late", 0.08, 0, maximumOpacity, "", "third control value of the curve")

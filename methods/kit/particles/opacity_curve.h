@@ -1,4 +1,4 @@
-// Opacity α over age, shared by all colour parts. At most 0.999, so that τ is finite.
+// Opacity α by age, shared by all colour parts. At most 0.999, so that τ is finite.
 //
 // Source: Thesis, 4.4.2 and 4.4.3 (the fourth component of a colour).
 #pragma once

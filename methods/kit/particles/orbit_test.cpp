@@ -86,7 +86,7 @@ TEST(OrbitVelocity, IsThatOfKepler) {
 }
 
 TEST(OrbitVelocity, SlowerOnesFallIn) {
-    // The control: with three quarters of the speed no orbit stays a circle.
+    // The control: at three quarters of the speed no orbit stays a circle.
     auto system = disc("1/d2", "", ", speed = -0.3");
     advance(system, 1);
     const auto before = orbitsOf(system.store());

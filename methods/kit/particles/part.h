@@ -1,7 +1,7 @@
-// A part: one aspect of a particle system, of one of nine kinds; made by name, with parameters declared once.
+// A part: one aspect of a particle system, of one of nine kinds; created by name, with declared parameters.
 //
 // A new part is one file, parts/KIND/NAME.cpp, with a function `PartInfo describe()` in the namespace
-// dustbench::particles::parts::KIND::NAME; the table is generated from the files. A new kind is a header beside this
+// dustbench::particles::parts::KIND::NAME; the table is generated from the files. A new kind is a header next to this
 // one. Source: Thesis, 3.1.3 (the plugins).
 #pragma once
 
@@ -38,12 +38,12 @@ class DUSTBENCH_API Part {
 
     [[nodiscard]] virtual PartKind kind() const = 0;
     [[nodiscard]] const std::string& name() const { return name_; }
-    /// For the table: a part is named after its file.
+    /// Called by the table: a part is named after its file.
     void setName(std::string name) { name_ = std::move(name); }
     [[nodiscard]] const ParameterValues& values() const { return values_; }
 
-    /// Continues from `before`, which this part replaces in a living system: a part with state that persists between
-    /// steps (an accumulator) copies it from a part of its own class.
+    /// Continues from `before`, which this part replaces in a running system. A part whose state persists between steps
+    /// (an accumulator) copies the state of a part of the same class.
     virtual void takeOver(const Part& /*before*/) {}
 
  private:
@@ -60,7 +60,7 @@ struct PartInfo {
     ParameterSet parameters{};
     /// Throws InputError if values that are allowed individually are inconsistent.
     std::function<std::unique_ptr<Part>(const ParameterValues&)> create{};
-    std::string library{};  ///< the file that it was loaded from; empty for parts of this build; set by the table
+    std::string library{};  ///< the file it was loaded from; empty for parts of this build; set by the table
 };
 
 }  // namespace dustbench::particles

@@ -34,7 +34,7 @@ std::vector<const Part*> partsOf(const PartList& parts, PartKind kind) {
     return found;
 }
 
-/// Returns the position in its list of the part that `word` names or numbers.
+/// The index in its list of the part that `word` names or numbers.
 std::size_t placeOf(std::span<const Part* const> list, PartKind kind, std::string_view word) {
     std::size_t number = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
@@ -64,7 +64,7 @@ std::unique_ptr<Part> changed(const Part& part, std::string_view key, std::strin
     return key == partKey ? makePart(part.kind(), value) : withValue(part, key, value);
 }
 
-/// Checks that the list remains a system with `part` (null: none) at `index` (the end: appended).
+/// Checks that the list remains a valid system with `part` (null: none) at `index` (the end: appended).
 void requireLifetimes(std::span<const Part* const> list, std::size_t index, const Part* part) {
     int giving = 0;
     for (std::size_t i = 0; i <= list.size(); ++i) {
@@ -72,7 +72,7 @@ void requireLifetimes(std::span<const Part* const> list, std::size_t index, cons
         if (stays && static_cast<const LifePart*>(stays)->meanLifetimeSeconds()) ++giving;
     }
     if (giving != 1)
-        throw InputError("parts of kind 'life' that give lifetimes: got " + std::to_string(giving) + ", expected 1");
+        throw InputError("parts of kind 'life' that set lifetimes: got " + std::to_string(giving) + ", expected 1");
 }
 
 void changeList(PartList& parts, PartKind kind, std::string_view rest, std::string_view value) {

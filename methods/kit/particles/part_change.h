@@ -1,12 +1,12 @@
-// Changes the parts of a living system by name: sets a parameter, swaps, adds or removes a part.
+// Changes the parts of a running system by name: sets a parameter, or replaces, adds or removes a part.
 //
 //     velocity.speed = 8             a parameter of the single part of a kind
 //     velocity.direction.x = 0.5     a component of a vector
-//     velocity.part = random         another part of the kind; its parameters have their defaults
-//     force.gravity.acceleration = 2 a parameter of a part of a list, by its name
-//     force.2.acceleration = 2       or by its place in the list, from 1
-//     force.gravity.part = wind      another part in its place; none: removed
-//     force.part = wind              one more
+//     velocity.part = random         another part of the kind, with default parameters
+//     force.gravity.acceleration = 2 a parameter of a part in a list, by the part's name
+//     force.2.acceleration = 2       or by its number in the list, from 1
+//     force.gravity.part = wind      replaces the part; none: removes it
+//     force.part = wind              adds a part
 //
 // Source: Thesis, 3.1.1 and 3.1.3 (every parameter and every part can be changed at any time).
 #pragma once
@@ -17,11 +17,11 @@
 
 namespace dustbench::particles {
 
-/// Throws InputError for an unknown name (with the nearest one), a value that is not allowed, or a change after which
-/// the list would not be a system; the list is then unchanged.
+/// Throws InputError for an unknown name (with the nearest one), a value that is not allowed, or a change that would
+/// make the system invalid; the list is then unchanged.
 DUSTBENCH_API void changePart(PartList& parts, std::string_view name, std::string_view value);
 
-/// Multiplies every length of the part that gives sizes. Throws InputError if a length leaves its range.
+/// Scales every length of the part that sets sizes. Throws InputError if a length leaves its range.
 DUSTBENCH_API void scaleSizes(PartList& parts, double factor);
 
 }  // namespace dustbench::particles

@@ -91,7 +91,7 @@ TEST(PartChange, AChangeToTheSameValueLeavesTheStateAloneAndAnotherDoesNot) {
     EXPECT_NE(hashAfter("force.wind.part", "none"), hashAfter("velocity.speed", "0.5"));
 }
 
-/// Replaces each part of the table by each other of its kind, while particles live.
+/// Replaces each part of the table by every other of its kind, while particles live.
 TEST(PartChange, SwapsAnyPartForAnyOtherOfItsKind) {
     const auto scene = test::sceneWithCar();
     for (const PartInfo& from : partTable())

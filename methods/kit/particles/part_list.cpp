@@ -67,7 +67,7 @@ void PartList::setInList(PartKind kind, std::size_t index, std::unique_ptr<Part>
     if (kind == PartKind::life) return replaceOrRemove(lives_, index, std::move(part));
     if (kind == PartKind::shading) return replaceOrRemove(shadings_, index, std::move(part));
     if (kind == PartKind::force) return replaceOrRemove(forces_, index, std::move(part));
-    throw std::logic_error("a part of kind '" + std::string(kindName(kind)) + "' stands in no list");
+    throw std::logic_error("a part of kind '" + std::string(kindName(kind)) + "' is not in a list");
 }
 
 void PartList::takeOver(const PartList& before) {
@@ -81,7 +81,7 @@ void PartList::takeOver(const PartList& before) {
 
 const LifePart& PartList::lifetime() const {
     const auto found = std::ranges::find_if(lives_, givesLifetimes);
-    if (found == lives_.end()) throw std::logic_error("no part gives lifetimes");
+    if (found == lives_.end()) throw std::logic_error("no part sets lifetimes");
     return **found;
 }
 
@@ -109,8 +109,8 @@ std::string PartList::missing() const {
     if (!colour_) return none(PartKind::colour);
     if (!size_) return none(PartKind::size);
     const auto lifetimes = std::ranges::count_if(lives_, givesLifetimes);
-    if (lifetimes == 0) return "no part of kind 'life' that gives lifetimes ('lifetime')";
-    if (lifetimes > 1) return "more than one part of kind 'life' that gives lifetimes";
+    if (lifetimes == 0) return "no part of kind 'life' that sets lifetimes ('lifetime')";
+    if (lifetimes > 1) return "more than one part of kind 'life' that sets lifetimes";
     return {};
 }
 

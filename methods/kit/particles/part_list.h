@@ -1,4 +1,4 @@
-// The parts of one system: six single ones and three lists. They may be swapped between updates.
+// The parts of one system: six single parts and three lists. They may be replaced between updates.
 //
 // Owns: the parts. Source: Thesis, 3.1.3.
 #pragma once
@@ -25,9 +25,9 @@ class PartList {
 
     /// Adds a part by its kind: replaces the single part, or appends to the list.
     void set(std::unique_ptr<Part> part);
-    /// Replaces the `index`-th part of its list by one that continues from it (Part::takeOver); null removes it.
+    /// Replaces part `index` of its list by one that continues from it (Part::takeOver); null removes it.
     void setInList(PartKind kind, std::size_t index, std::unique_ptr<Part> part);
-    /// Continues from the parts of a living system that this list replaces (Part::takeOver).
+    /// Continues from the parts of a running system that this list replaces (Part::takeOver).
     void takeOver(const PartList& before);
 
     /// Null while the system is being assembled.
@@ -49,7 +49,7 @@ class PartList {
     [[nodiscard]] const LifePart& lifetime() const;
     /// Every part, by kind in the order of PartKind.
     [[nodiscard]] std::vector<const Part*> all() const;
-    /// Why the list is not yet a system (`no part of kind 'size'`), or empty.
+    /// Why the list is not a complete system (`no part of kind 'size'`); empty if it is.
     [[nodiscard]] std::string missing() const;
 
  private:

@@ -1,4 +1,4 @@
-// Replaces each part by each other of its kind while 10,000 particles live.
+// Replaces each part by every other of its kind while 10,000 particles live.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int count = 10'000;
 
-/// Replaces the last part of a kind by the named one, or adds it to an empty list. The lifetimes stay.
+/// Replaces the last part of a kind by the named one, or adds it to an empty list. Lifetimes are kept.
 void put(PartList& parts, PartKind kind, const std::string& name) {
     if (kind == PartKind::force) parts.forces().clear();
     if (kind == PartKind::shading) parts.shadings().clear();

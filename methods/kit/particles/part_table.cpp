@@ -16,7 +16,7 @@ std::pair<PartKind, std::string> place(const PartInfo& info) {
     return {info.kind, info.name};
 }
 
-/// Its parts know their name.
+/// Makes the parts that it creates know their name.
 PartInfo naming(PartInfo info) {
     info.create = [name = info.name, create = std::move(info.create)](const ParameterValues& values) {
         std::unique_ptr<Part> part = create(values);
@@ -49,7 +49,7 @@ const std::vector<PartInfo>& partTable() {
 void requireNewPart(const PartInfo& info) {
     const auto same = std::ranges::find(allParts(), place(info), place);
     if (same != allParts().end())
-        throw InputError(std::string(kindName(info.kind)) + " part '" + info.name + "' is there already, " +
+        throw InputError(std::string(kindName(info.kind)) + " part '" + info.name + "' already exists, " +
                          (same->library.empty() ? "in this build" : "from " + same->library));
 }
 

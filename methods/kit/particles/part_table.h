@@ -14,12 +14,12 @@ namespace dustbench::particles {
 /// All parts, ordered by kind and name.
 [[nodiscard]] DUSTBENCH_API const std::vector<PartInfo>& partTable();
 
-/// Throws InputError if its kind has a part of its name.
+/// Throws InputError if a part of this kind and name exists.
 DUSTBENCH_API void requireNewPart(const PartInfo& info);
-/// Adds a part from outside, whose `library` is set. References into partTable() become invalid. Throws as above.
+/// Adds a part from a library, with `library` set. References into partTable() become invalid. Throws as above.
 DUSTBENCH_API void addPart(PartInfo info);
 
-/// A part's library is noted as an input of the run. Throws InputError with the nearest name.
+/// Notes the part's library as an input of the run. Throws InputError, which suggests the nearest name.
 [[nodiscard]] DUSTBENCH_API const PartInfo& findPart(PartKind kind, std::string_view name);
 
 using NamedValues = std::vector<std::pair<std::string, std::string>>;

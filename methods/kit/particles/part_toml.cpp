@@ -31,7 +31,7 @@ std::vector<std::string> keysOf(const ParameterSet& declared) {
     return keys;
 }
 
-/// Replaces a path by the file that it stands for, absolute; a name stays as it is.
+/// Replaces a path by the absolute path of its file; returns a name unchanged.
 std::string fileOf(const std::filesystem::path& from, const Parameter& parameter, const std::string& text) {
     if (from.empty() || parameter.fileExtension.empty()) return text;
     const std::filesystem::path named(text);
@@ -90,7 +90,7 @@ std::unique_ptr<PartList> readParts(files::TomlReader& table, const std::filesys
     table.finish();
     if (parts->emission() && parts->emission()->neverEmits())
         throw InputError(table.where("emission") + "emission part '" + parts->emission()->name() +
-                         "': got rates of 0, allowed: a rate above 0, or nothing is ever born");
+                         "': got rates of 0, allowed: a rate above 0, otherwise no particle is born");
     if (const std::string missing = parts->missing(); !missing.empty())
         throw InputError(table.where() + "particle system: " + missing);
     return parts;
@@ -106,9 +106,9 @@ std::string readName(files::TomlReader& table, const std::vector<NamedParts>& be
     std::string name = table.text("name");
     if (!isName(name))
         throw InputError(table.where("name") + "key 'name': got '" + name +
-                         "', expected lower-case letters, digits and '_', a letter first, and no kind of part");
+                         "', expected lower-case letters, digits and '_', a letter first, and not a kind of part");
     if (std::ranges::find(before, name, &NamedParts::name) != before.end())
-        throw InputError(table.where("name") + "two systems are named '" + name + "', expected a name for each");
+        throw InputError(table.where("name") + "two systems are named '" + name + "', expected unique names");
     return name;
 }
 
@@ -123,7 +123,7 @@ std::vector<NamedParts> readSystems(files::TomlReader file, const std::filesyste
         std::string name = readName(table, systems);
         systems.push_back({std::move(name), readParts(table, from)});
     }
-    if (systems.empty()) throw InputError(file.where("system") + "key 'system': got no table, expected one or more");
+    if (systems.empty()) throw InputError(file.where("system") + "key 'system': got none, expected one or more tables");
     file.finish();
     return systems;
 }

@@ -165,7 +165,7 @@ TEST(PartToml, ErrorsOfSeveralSystemsNameFileAndLine) {
     const std::string one = named("smoke");
     EXPECT_THAT(systemsErrorOf(one + one), AllOf(HasSubstr("two.toml:"), HasSubstr("two systems are named 'smoke'")));
     EXPECT_THAT(systemsErrorOf(with(one, "smoke", "Smoke")), HasSubstr("two.toml:2: key 'name': got 'Smoke'"));
-    EXPECT_THAT(systemsErrorOf(with(one, "smoke", "size")), HasSubstr("no kind of part"));
+    EXPECT_THAT(systemsErrorOf(with(one, "smoke", "size")), HasSubstr("not a kind of part"));
     EXPECT_THAT(systemsErrorOf(with(one, "name", "nam")), HasSubstr("'system.name' is missing"));
     EXPECT_THAT(systemsErrorOf(with(one, "\"drag\"", "\"dragg\"")), HasSubstr("did you mean 'drag'"));
     EXPECT_THAT(systemsErrorOf("system = []"), HasSubstr("one or more"));
@@ -192,7 +192,7 @@ TEST(PartToml, FilesThatAFileNamesLieBesideItAndElseAmongTheData) {
     EXPECT_EQ(read("meshes/own.ply"), (folder / "meshes/own.ply").string());
     EXPECT_EQ(read("./meshes/../meshes/own.ply"), (folder / "meshes/own.ply").string());
     EXPECT_THAT(read("hare.ply"), testing::EndsWith("data/shapes/meshes/hare.ply"));
-    // Where the program was started does not count.
+    // The working directory has no influence.
     const fs::path before = fs::current_path();
     fs::current_path(folder / "meshes");
     EXPECT_THAT(
@@ -206,7 +206,7 @@ TEST(PartToml, FilesThatAFileNamesLieBesideItAndElseAmongTheData) {
         AllOf(HasSubstr("mine.toml:"), HasSubstr("no such file, tried " + (folder / "own.ply").string())));
     EXPECT_EQ(read("meshes/own.ply"), (folder / "meshes/own.ply").string());
     fs::current_path(before);
-    // Saved, it says the same from any other folder.
+    // Saved, it has the same meaning in any other folder.
     const auto system = systemsFromFile(folder / "mine.toml");
     const auto again = partsFromText(partsToToml(*system.front().parts), "elsewhere.toml");
     EXPECT_EQ(again->position()->values().choice("mesh"), (folder / "meshes/own.ply").string());

@@ -26,7 +26,7 @@ class DUSTBENCH_API ParticleStore {
     [[nodiscard]] std::size_t size() const { return serial.size(); }
     [[nodiscard]] bool empty() const { return serial.empty(); }
     void reserve(std::size_t count);
-    /// Grows the capacity by a quarter or more when it is exceeded, so that memory held stays near memory used.
+    /// Grows the capacity by at least a quarter if it is exceeded, so that allocated memory stays close to used memory.
     void resize(std::size_t count);
     /// Copies all columns of particle `from` over particle `to`.
     void move(std::size_t from, std::size_t to);
@@ -36,7 +36,7 @@ class DUSTBENCH_API ParticleStore {
     void put(const Chunk& chunk, std::size_t from, std::size_t to);
     /// Hash of every column, in storage order.
     [[nodiscard]] std::uint64_t hash() const;
-    /// Keeps one colour for all, or one per particle, initialised to `colourOfAll`.
+    /// Stores one colour for all particles, or one per particle, initialised to `colourOfAll`.
     void keepOneColour(bool oneForAll);
 
     /// The view for methods and metrics: the same columns, valid until the store changes.
@@ -55,7 +55,7 @@ class DUSTBENCH_API ParticleStore {
     LedgerVector<float> opacity;           ///< peak opacity α, 0..0.999
     LedgerVector<float> red, green, blue;  ///< empty while `uniformColour`
 
-    bool uniformColour = true;  ///< one colour for all: no colour columns are kept
+    bool uniformColour = true;  ///< one colour for all: no colour columns
     glm::vec3 colourOfAll{1};
 
  private:

@@ -19,14 +19,14 @@
 namespace dustbench::particles {
 namespace {
 
-constexpr std::size_t fewChunks = 4;  // with fewer chunks, a second thread does not pay off
+constexpr std::size_t fewChunks = 4;  // with fewer chunks, a second thread is not worth it
 
 }  // namespace
 
 struct ParticleSystem::State {
     State(std::unique_ptr<PartList> list, std::uint64_t seedOfAll) : parts(std::move(list)), seed(seedOfAll) {}
 
-    /// Throws InputError unless the machine's memory can hold this many particles. Only larger numbers are checked
+    /// Throws InputError unless the machine's memory suffices for this many particles. Only larger numbers are checked
     /// again.
     void requireRoom(double particles);
     void live(const MetSurfaces& surfaces, const Step& step);
@@ -72,7 +72,7 @@ void ParticleSystem::State::live(const MetSurfaces& surfaces, const Step& step) 
         fewChunks);
 }
 
-/// Closes the holes (ascending) that no newborn has filled: the last survivors move into them, in order.
+/// Fills the holes (ascending) that no newborn has taken: the last survivors move into them, in order.
 void ParticleSystem::State::bury(std::span<const std::uint32_t> holes) {
     if (holes.empty()) return;
     const std::size_t left = store.size() - holes.size();
@@ -137,7 +137,7 @@ ParticleSystem::~ParticleSystem() = default;
 void ParticleSystem::update(const Surroundings& surroundings) {
     if (!(surroundings.stepSeconds > 0)) throw std::invalid_argument("ParticleSystem: a step must be longer than 0 s");
     if (surroundings.particlesPerPuff < 1)
-        throw std::invalid_argument("ParticleSystem: at least 1 particle is born for each puff");
+        throw std::invalid_argument("ParticleSystem: `particlesPerPuff` must be 1 or more");
     State& s = *state_;
     if (const std::string missing = s.parts->missing(); !missing.empty()) throw std::logic_error(missing);
     const PartList& parts = *s.parts;

@@ -1,4 +1,4 @@
-// A particle system: a store, and the parts that drive its particles. Saved as and loaded from TOML.
+// A particle system: a store, and the parts that simulate its particles. Saved as and loaded from TOML.
 //
 // Source: Thesis, 3.1.3 and 3.3.2 (nine kinds of part; the order of an update).
 // Threads: `update` uses the current oneTBB arena; results are bit-identical at any number of threads.
@@ -20,9 +20,9 @@ struct Surroundings {
     const scene::Scene& scene;
     const scene::SceneState& state;  ///< at the end of the step
     double stepSeconds = 1.0 / 60;
-    /// Mean number of particles to keep alive; 0: the emission's own rate. (The harness's `particles=N`.)
+    /// Mean number of living particles to maintain; 0: the emission's own rate. (The harness's `particles=N`.)
     std::int64_t fixedCount = 0;
-    /// Particles born in place of each one, evenly in time; 1 or more. (Above 1: the ground truth's `continuum`, whose
+    /// Particles born instead of each one, evenly in time; 1 or more. (Above 1: the ground truth's `continuum`, whose
     /// particles count for proportionally less.)
     std::int64_t particlesPerPuff = 1;
 };
@@ -46,7 +46,7 @@ class DUSTBENCH_API ParticleSystem {
     [[nodiscard]] std::string toToml() const;
 
     [[nodiscard]] const ParticleStore& store() const;
-    /// For swapping parts between updates.
+    /// For replacing parts between updates.
     [[nodiscard]] PartList& parts();
     [[nodiscard]] const PartList& parts() const;
     /// Continues with other parts from the next update on. With the same parts, as after saving and loading, it

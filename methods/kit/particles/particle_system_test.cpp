@@ -54,8 +54,8 @@ TEST(ParticleSystem, HashTellsSeedsAndStepsApart) {
     EXPECT_EQ(hashes.size(), 9u);
 }
 
-// The state depends only on IEEE additions, multiplications, divisions and square roots without contraction: it is the
-// same on every machine and in every build. A different hash means that a part's behaviour has changed.
+// The state depends only on IEEE additions, multiplications, divisions and square roots without contraction, so it is
+// the same on every machine and in every build. A different hash means that a part's behaviour has changed.
 TEST(ParticleSystem, StateIsTheSameOnEveryMachine) {
     auto system = systemFrom(everyForce);
     advance(system, test::sceneWithCar(), 150);

@@ -47,7 +47,7 @@ TEST(Integration, FreeParticlesAreWhereTheirAgeAndSpeedPutThem) {
     }
 }
 
-/// Maximum |y − closed form| after two seconds, over particles born at the beginning of a step.
+/// Maximum |y − closed form| after two seconds, over particles born at the start of a step.
 double fallError(double stepSeconds, double rate, double acceleration) {
     const std::string toml = test::with(still, "rate_per_second = 100", "rate_per_second = 16") +
                              "force = [ { part = \"gravity\", acceleration = " + std::to_string(acceleration) +

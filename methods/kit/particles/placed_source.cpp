@@ -5,8 +5,8 @@
 namespace dustbench::particles {
 
 void PlacedSource::declare(ParameterSet& set) {
-    set.choice("at", At::wheels, places, "at the vehicle's wheels where they touch the ground, or at `place`");
-    declareVector(set, "place", spaceAxes, {0, 0, 0}, -1e6, 1e6, "m", "where in the world, if at = place");
+    set.choice("at", At::wheels, places, "at the contact points of the vehicle's wheels, or at `place`");
+    declareVector(set, "place", spaceAxes, {0, 0, 0}, -1e6, 1e6, "m", "position in the world, if at = place");
 }
 
 PlacedSource::PlacedSource(const ParameterValues& values) : PositionPart(values), at_(values.choice("at", places)) {

@@ -19,7 +19,7 @@ void PlainDust::step(const scene::SceneState& state, double seconds) {
     due_ += rate * seconds;
     while (due_ >= 1) {
         due_ -= 1;
-        bear(state, due_ / rate, dt);  // the remainder of the count is the time since birth
+        bear(state, due_ / rate, dt);  // the remainder of the count gives the time since birth
     }
 }
 

@@ -42,7 +42,7 @@ class PlainDust {
     PlainDust(const PlainDustSettings& settings, const scene::Scene& scene) : set_(settings), scene_(scene) {}
 
     void step(const scene::SceneState& state, double seconds);
-    /// By serial.
+    /// The living particles by serial.
     [[nodiscard]] const std::map<std::uint64_t, PlainParticle>& alive() const { return alive_; }
 
  private:

@@ -13,7 +13,7 @@ class PositionPart : public Part {
     using Part::Part;
     [[nodiscard]] PartKind kind() const final { return PartKind::position; }
 
-    /// What carries the source in this step; if empty, nothing is born. Velocity parts use it too.
+    /// The carriers of the source in this step; if empty, nothing is born. Velocity parts use them too.
     [[nodiscard]] virtual std::span<const Emitter> emitters(const Step& step) const = 0;
     /// Sets positions at the moment of birth.
     virtual void place(Newborns& newborns, const Step& step) const = 0;

@@ -12,7 +12,7 @@ class RandomSpeed {
  public:
     static void declare(ParameterSet& set) {
         set.real("speed", 2, -1000, 1000, "m/s", "mean speed")
-            .real("variation", 0, 0, 1000, "m/s", "largest departure from the mean");
+            .real("variation", 0, 0, 1000, "m/s", "maximum deviation from the mean");
     }
     explicit RandomSpeed(const ParameterValues& values)
         : average_(static_cast<float>(values.real("speed"))),

@@ -3,13 +3,13 @@
 namespace dustbench::particles {
 
 void RenderPart::declareBlending(ParameterSet& set, Blending initial) {
-    set.choice("blend", initial, blendings, "cover what is behind, sorted far to near; or add light, in any order")
-        .boolean("clamped", true, "added light is clamped to 1 in its own buffer, independent of the scene behind it");
+    set.choice("blend", initial, blendings, "cover the background, sorted far to near; or add light, in any order")
+        .boolean("clamped", true, "clamps added light to 1 in a separate buffer, independent of the scene behind it");
 }
 
 void RenderPart::declareStereo(ParameterSet& set) {
-    set.boolean("stereo", false, "for red-green glasses: the left eye's picture in green, the right eye's in red")
-        .real("eyes_metres", 0.065, 0, 10, "m", "distance of the two eyes, if stereo");
+    set.boolean("stereo", false, "for red-green glasses: left eye's picture in green, right eye's in red")
+        .real("eyes_metres", 0.065, 0, 10, "m", "distance between the eyes, if stereo");
 }
 
 Look RenderPart::lookOf(Primitive primitive) const {

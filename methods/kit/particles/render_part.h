@@ -26,23 +26,23 @@ enum class AntiAliasing {
 inline constexpr Choices<AntiAliasing> antiAliasings{{"copies", AntiAliasing::copies},
                                                      {"accumulation", AntiAliasing::accumulation}};
 
-/// Everything a file can say about the appearance; a part sets what its primitive has.
+/// All properties of the appearance that a file can set; a part sets those of its primitive.
 struct Look {
     Primitive primitive = Primitive::puff;
     Blending blending = Blending::alpha;
-    bool clamped = true;    ///< additive light: clamped to 1 in a buffer of its own
-    float pixels = 0;       ///< of points; 0: the particle's own size
+    bool clamped = true;    ///< additive light: clamped to 1 in a separate buffer
+    float pixels = 0;       ///< width of points; 0: the particle's own size
     bool round = false;     ///< points with a Gaussian profile
-    float seconds = 0;      ///< of the path that lines and copies show; 0: one step
-    int steps = 1;          ///< of the path that curves show
+    float seconds = 0;      ///< duration of the path of lines and copies; 0: one step
+    int steps = 1;          ///< steps of the path of curves
     int pieces = 1;         ///< straight pieces of a curve in each step
-    std::string picture{};  ///< of sprites, a name in data/textures or a file; empty: a Gaussian
-    int copies = 1;         ///< of anti-aliased sprites
+    std::string picture{};  ///< for sprites: a name in data/textures or a file; empty: a Gaussian
+    int copies = 1;         ///< copies of anti-aliased sprites
     AntiAliasing by = AntiAliasing::copies;
     bool fading = false;  ///< newer copies have more weight
-    std::string mesh{};   ///< of objects, a name in data/scenes/meshes or a file
+    std::string mesh{};   ///< for objects: a name in data/scenes/meshes or a file
     bool alongVelocity = false;
-    bool stereo = false;   ///< red and green glasses, the left eye green
+    bool stereo = false;   ///< for red-green glasses, the left eye green
     float eyesMetres = 0;  ///< distance of the two eyes
 };
 
@@ -54,14 +54,14 @@ class RenderPart : public Part {
     [[nodiscard]] virtual Look look() const = 0;
 
  protected:
-    /// `blend`, `clamped`, and the wrapper around any primitive: `stereo`, `eyes_metres`.
+    /// `blend`, `clamped`, and the options of all primitives: `stereo`, `eyes_metres`.
     static void declareBlending(ParameterSet& set, Blending initial);
     static void declareStereo(ParameterSet& set);
     /// A look with these parameters.
     [[nodiscard]] Look lookOf(Primitive primitive) const;
 };
 
-/// A part without a state: its parameters are its look. `Traits` has `primitive` and `complete(Look&, values)`.
+/// A part without state: its parameters are its look. `Traits` has `primitive` and `complete(Look&, values)`.
 template <typename Traits>
 class LookPart final : public RenderPart {
  public:

@@ -33,13 +33,13 @@ glm::dvec3 gaussianPoint(std::uint64_t seed, std::int64_t i) {
             second * std::cos(2 * std::numbers::pi * static_cast<double>(u[3]))};
 }
 
-/// A point of the cube of four dimensions.
+/// A point of the four-dimensional cube.
 glm::dvec4 hypercubePoint(std::uint64_t seed, std::int64_t i) {
     const auto u = maths::uniform4(seed, cubeStream, static_cast<std::uint64_t>(i));
     return 2.0 * glm::dvec4(u[0], u[1], u[2], u[3]) - 1.0;
 }
 
-/// Of points in the cube of `Point`'s dimensions, `name` is added to the quantities.
+/// For points in the cube of `Point`'s dimensions; `name` is appended to the quantities.
 template <typename Point>
 void findAcceptance(const std::string& name, std::uint64_t seed, std::int64_t draws, std::vector<Finding>& findings) {
     std::int64_t inside = 0;
@@ -54,13 +54,13 @@ void findAcceptance(const std::string& name, std::uint64_t seed, std::int64_t dr
     findings.push_back({"tries_per_point" + name, 1 / p, 1 / (middle + half), 1 / (middle - half), draws});
 }
 
-/// Counts directions within 4 degrees of a cube's corners and of its faces' middles, per corner and per face.
+/// Counts directions within 4 degrees of a cube's corners and of its faces' centres, per corner and per face.
 void findCornersOverFaces(const std::string& name, const Direction& direction, std::int64_t draws,
                           std::vector<Finding>& findings) {
     const double cap = std::cos(4 * radians);
     double corners = 0, faces = 0;
     for (std::int64_t i = 0; i < draws; ++i) {
-        // By symmetry, fold into the first octant: its corner, and the faces' middles on its axes.
+        // By symmetry, fold into the first octant: its corner, and the faces' centres on its axes.
         const glm::dvec3 d = glm::abs(direction(i));
         corners += (d.x + d.y + d.z) / std::numbers::sqrt3 > cap ? 1 : 0;
         faces += std::max({d.x, d.y, d.z}) > cap ? 1 : 0;
@@ -145,7 +145,7 @@ std::vector<Finding> sampleDirections(std::uint64_t seed, std::int64_t draws) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "Measures how uniform the thesis's random points and directions are, and their corrections.";
+    info.summary = "Measures how uniform the thesis's random points and directions are, as printed and corrected.";
     info.source = "Thesis";
     info.run = [](ExperimentContext& context) { return sampleDirections(context.seed(), 4'000'000); };
     return info;

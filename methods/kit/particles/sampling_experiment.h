@@ -1,4 +1,4 @@
-// Measures how uniform the thesis's random points and directions are, and their corrections (claims R18 to R20).
+// Measures how uniform the thesis's random points and directions are, and those of our corrections (claims R18 to R20).
 //
 // Units: degrees in names. Threads: pure. Source: Thesis, 4.2.3 (rejection), 4.3.1 (directions), 4.3.2 and 4.3.3
 // (cones).
@@ -12,7 +12,7 @@
 namespace dustbench::particles::sampling {
 
 /// The experiment `sampling`:
-///     acceptance, tries_per_point    of points in a cube that lie in its ball; Wilson's interval. With `_disc` and
+///     acceptance, tries_per_point    of points in a cube that are in its ball; Wilson's interval. With `_disc` and
 ///                                    `_4d` the same in two and four dimensions: π/4 and π²/32
 ///     corner_over_face_…             density of directions towards a cube's corners over that towards its faces, in
 ///                                    caps of 4 degrees: of normalised `cube` vectors, of normalised `gaussian` ones
@@ -22,7 +22,7 @@ namespace dustbench::particles::sampling {
 ///                                    Dvoretzky, Kiefer and Wolfowitz
 ///     …_by_cosine                    the same, drawn by interpolating the cosine
 [[nodiscard]] DUSTBENCH_API ExperimentInfo describe();
-/// Its findings for this seed, each of `draws` points or directions.
+/// The findings for this seed, each from `draws` points or directions.
 [[nodiscard]] std::vector<Finding> sampleDirections(std::uint64_t seed, std::int64_t draws);
 
 }  // namespace dustbench::particles::sampling

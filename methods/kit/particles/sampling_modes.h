@@ -1,4 +1,4 @@
-// The parameter `mode` of parts whose formula in the thesis errs.
+// The parameter `mode` of parts whose formula in the thesis has an error.
 #pragma once
 
 #include "methods/contract/choices.h"

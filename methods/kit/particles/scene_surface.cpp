@@ -9,7 +9,7 @@
 namespace dustbench::particles {
 namespace {
 
-/// Frames and boxes are computed apart from each other: their rounding must not hide a contact.
+/// Frames and boxes are computed separately; differences in rounding must not hide a contact.
 constexpr float boxMarginMetres = 0.02f;
 
 /// From the frame of a wheel that does not spin: rolling direction, up, axle to the right.
@@ -28,7 +28,7 @@ struct CylinderHit {
     glm::vec3 normal;
 };
 
-/// x² + y² ≤ R², |z| ≤ w, from outside: the way is inside where it is inside both, so it enters at the later one.
+/// x² + y² ≤ R², |z| ≤ w, from outside: the path is inside where it is inside both, so it enters at the later one.
 CylinderHit meetCylinder(const glm::vec3& from, const glm::vec3& to, float radius, float halfWidth) {
     const CylinderHit missed{Surface::none, {0, 1, 0}};
     const glm::dvec3 o(from), way = glm::dvec3(to) - o;
@@ -155,7 +155,7 @@ void SceneSurface::moveSolid(Carried& carried, const Step& step) {
     const scene::SolidPose& pose = scene::solidPose(step.scene, step.state, number);
     if (carried.deformation) {
         if (number >= step.state.solids.size() || !step.state.solids[number].shape)
-            throw std::invalid_argument("SceneSurface: a solid that deforms has no shape at this moment");
+            throw std::invalid_argument("SceneSurface: a deforming solid has no shape at this moment");
         carried.deformation->moveTo(step.state.solids[number].shape, step.seconds);
         carried.local = Box();
         for (const glm::vec3& point : carried.deformation->positionsAtBegin()) carried.local.take(point);
@@ -258,7 +258,7 @@ Touch SceneSurface::touchAt(const Meeting& way) const {
         (turning == glm::vec3(0) ? turning : glm::length(turning) * frame.directionToWorld(turning, left));
     if (!found.carried->deformation)
         return {frame.toWorld(local, left), frame.directionToWorld(found.normal, left), ofFrame};
-    // The place is that at the step's end. At the contact the surface was where its deformation had brought it by then.
+    // The point is that at the step's end; by the contact, the deformation had moved the surface only part of the way.
     const glm::vec3 deforming = found.carried->deformation->velocityOfPointAtEnd(local);
     return {frame.toWorld(local - left * deforming, left), frame.directionToWorld(found.normal, left),
             ofFrame + glm::mat3(glm::mat4(frame.atEnd())) * deforming};

@@ -1,8 +1,8 @@
-// What a scene holds as one surface: its ground, its solids, and the moving vehicle.
+// The contents of a scene as one surface: its ground, its solids, and the moving vehicle.
 //
-// Ground and wheels are met from outside; the triangles of solids and of the vehicle's body from both sides. Solids
-// that move or deform do so during the step, as the vehicle does. A wheel is the cylinder of its outline, whatever its
-// spokes, and turns: its surface moves with its spin. Panels are not met.
+// Ground and wheels are hit from outside; the triangles of solids and of the vehicle's body from both sides. Solids
+// that move or deform do so during the step, like the vehicle. A wheel is the cylinder of its outline, without
+// spokes, and its surface moves with its spin. Panels are ignored.
 //
 // Units: m, m/s, s. Frame: world. Owns: the triangles' trees. Threads: `meet` and `touchAt` are safe from any.
 #pragma once
@@ -25,7 +25,7 @@ class SceneSurface final : public Surface {
  public:
     explicit SceneSurface(const SceneParts& parts) : parts_(parts) {}
 
-    /// Throws InputError if the triangles are too many for Embree.
+    /// Throws InputError if there are too many triangles for Embree.
     void begin(const Step& step) override;
     void meet(const Ways& ways, float* share) const override;
     [[nodiscard]] Touch touchAt(const Meeting& meeting) const override;
@@ -39,21 +39,21 @@ class SceneSurface final : public Surface {
         void take(const Box& other);
         [[nodiscard]] bool meets(const glm::vec3& from, const glm::vec3& to) const;
     };
-    /// A way as something that moves sees it at the step's end.
+    /// A path relative to a moving object at the step's end.
     struct LocalWay {
         glm::vec3 from, to;
         glm::vec3 deforming{0};  ///< velocity of the surface by its deformation, in the frame
 
         [[nodiscard]] glm::vec3 at(float share) const { return from + share * (to - from); }
     };
-    /// The vehicle's body, a wheel, or a solid that moves.
+    /// The vehicle's body, a wheel, or a moving solid.
     struct Carried {
-        std::optional<std::size_t> solid{};  ///< its number
-        bool stands = false;                 ///< a solid that does not move in this step: one of `solids_`
+        std::optional<std::size_t> solid{};  ///< its index
+        bool stands = false;                 ///< a movable solid at rest in this step: part of `solids_`
         CarriedFrame frame{};
-        Box local{}, swept{};    ///< `swept`: on its way through the step
-        glm::vec3 spin{0};       ///< rad/s about the origin, in the frame that does not spin
-        float radiusMetres = 0;  ///< of a wheel; 0: another
+        Box local{}, swept{};    ///< `swept`: over the whole step
+        glm::vec3 spin{0};       ///< rad/s about the origin, in the non-spinning frame
+        float radiusMetres = 0;  ///< of a wheel; 0: not a wheel
         float halfWidthMetres = 0;
         meshes::TriangleTree rigid{};
         std::optional<Deformation> deformation{};
@@ -67,7 +67,7 @@ class SceneSurface final : public Surface {
     struct Found {
         float share = none;
         const Carried* carried = nullptr;  ///< null: ground or a still solid
-        glm::vec3 normal{0, 1, 0};         ///< in the frame of what was met
+        glm::vec3 normal{0, 1, 0};         ///< in the frame of the object that was hit
     };
 
     void build(const scene::Scene& scene);
@@ -80,9 +80,9 @@ class SceneSurface final : public Surface {
     [[nodiscard]] Found findOn(const Carried& carried, const Meeting& way) const;
 
     SceneParts parts_;
-    const scene::Scene* scene_ = nullptr;            ///< what was built
-    meshes::TriangleTree solids_;                    ///< those that are still, or stand in this step
-    std::optional<std::set<std::size_t>> standing_;  ///< of those that can move, the ones in `solids_`
+    const scene::Scene* scene_ = nullptr;            ///< scene of the current trees
+    meshes::TriangleTree solids_;                    ///< fixed ones, and movable ones at rest in this step
+    std::optional<std::set<std::size_t>> standing_;  ///< the movable ones in `solids_`
     Box solidsBox_, carriedBox_;
     std::vector<Carried> carried_;
     float extentMetres_ = 0;

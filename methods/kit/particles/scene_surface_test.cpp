@@ -1,4 +1,4 @@
-// Tests that particles bounce on what a scene holds: ground, solids, and the vehicle as it moves.
+// Tests that particles bounce on the contents of a scene: ground, solids, and the moving vehicle.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ scene::Scene sceneWithBox() {
     return scene;
 }
 
-/// On a circle of `radius` metres (0: straight on along +X), whatever the time.
+/// On a circle of `radius` metres (0: straight on along +X), at any time.
 scene::SceneState driving(double time, double speed, double acceleration = 0, double radius = 0) {
     const double way = speed * time + acceleration * time * time / 2;
     scene::SceneState state;
@@ -70,7 +70,7 @@ glm::dvec3 velocityOf(const ParticleStore& store, std::size_t i) {
 const std::string standing = "part = \"fixed\", speed = 0";
 
 TEST(SceneSurface, AMovingCarGivesItsVelocity) {
-    // At rest 2 m before the bumper: v' = (1 + e)·V, from the moment of contact on.
+    // At rest 2 m in front of the bumper: v' = (1 + e)·V, from the moment of contact on.
     const scene::Scene scene = sceneWithBox();
     for (const double e : {0.0, 0.25, 1.0})
         for (const double speed : {3.0, 20.0, 60.0}) {
@@ -92,7 +92,7 @@ TEST(SceneSurface, AMovingCarGivesItsVelocity) {
 }
 
 TEST(SceneSurface, MirrorsTheVelocityRelativeToTheCar) {
-    // Onto the roof from above, and on the flank from the side; friction 0.25 takes a quarter of what slides.
+    // Onto the roof from above, and on the flank from the side; friction 0.25 removes a quarter of the sliding speed.
     const scene::Scene scene = sceneWithBox();
     const double speed = 8;
     struct Case {
@@ -116,7 +116,7 @@ TEST(SceneSurface, MirrorsTheVelocityRelativeToTheCar) {
 }
 
 TEST(SceneSurface, MeetsTheCarWhereItIsWithinTheStep) {
-    // Shots at the flank of a car that drives a metre a step: those behind its rear at the moment of contact pass.
+    // Shots at the flank of a car that drives a metre per step: those behind its rear at the moment of contact pass.
     const scene::Scene scene = sceneWithBox();
     const double speed = 60, shot = 64;
     auto text = surfaceSwarm("[0, 0, 0]", 0, "part = \"fixed\", direction = [0, 0, -1], speed = 64",
@@ -171,7 +171,7 @@ TEST(SceneSurface, WhatSticksRidesAlongHoweverTheCarMoves) {
         advance(128, 3);
         const auto after = ofCar();
         for (std::size_t i = 0; i < before.size(); ++i) {
-            // It rests a clearance of some 1e-5 m above the roof and is set on it anew 128 times, by gravity · step.
+            // It rests about 1e-5 m above the roof and is put back there 128 times, by gravity · step.
             ASSERT_NEAR(before[i].y, 1.4, 1e-3);
             ASSERT_NEAR(glm::distance(before[i], after[i]), 0, 4e-3) << radius;
         }
@@ -179,7 +179,7 @@ TEST(SceneSurface, WhatSticksRidesAlongHoweverTheCarMoves) {
 }
 
 TEST(SceneSurface, AWheelsRimGivesItsSpin) {
-    // Friction 1, restitution 0: what touches the top of a wheel leaves with the rim's velocity, 2·V at the top.
+    // Friction 1, restitution 0: a particle that touches the top of a wheel leaves with the rim's velocity, 2·V there.
     const scene::Scene scene = sceneWithBox();
     auto free = scene;
     free.vehicle->body.mesh = nullptr;
@@ -208,7 +208,7 @@ TEST(SceneSurface, AWheelsRimGivesItsSpin) {
 }
 
 /// Metres inside the car's box or a wheel, or below the ground; negative outside. Where a wheel rolls over a particle
-/// that lies on the ground there is no place that is outside both: there the ground counts alone.
+/// on the ground, no point is outside of both: only the ground counts there.
 double depthInside(const glm::vec3& point, const scene::SceneState& state) {
     const auto local = glm::dvec3(glm::inverse(state.vehicle.toWorld()) * glm::dvec4(glm::dvec3(point), 1));
     const glm::dvec3 in = glm::min(local - glm::dvec3(boxMinimum), glm::dvec3(boxMaximum) - local);
@@ -292,7 +292,7 @@ scene::Terrain surfaceHills(unsigned seed) {
 }
 
 TEST(GroundSurface, MeetsTheHeightFieldWhereTheWayFirstFallsBelowIt) {
-    // Against a search in 20,000 samples of Terrain::heightAt. Seed 5, beyond the field's edge too.
+    // Compared with a search in 20,000 samples of Terrain::heightAt. Seed 5, also beyond the field's edge.
     std::mt19937 random(5);
     std::uniform_real_distribution<float> at(-5, 5), height(-1, 2);
     int met = 0, free = 0;
@@ -311,7 +311,7 @@ TEST(GroundSurface, MeetsTheHeightFieldWhereTheWayFirstFallsBelowIt) {
             if (p.y < static_cast<double>(terrain.heightAt(static_cast<float>(p.x), static_cast<float>(p.z))) - 2e-6)
                 first = static_cast<double>(k) / samples;
         }
-        // What only grazes the surface may be either.
+        // Paths that only graze the surface may give either result.
         if (first <= 1 && share > 1) {
             const glm::vec3 p = glm::mix(from, to, static_cast<float>(first));
             ASSERT_NEAR(p.y, terrain.heightAt(p.x, p.z), 1e-3) << i;

@@ -11,9 +11,9 @@
 
 namespace dustbench::particles {
 
-/// The light that a system's particles give off (emitted_light.h).
+/// The light that a system's particles emit (emitted_light.h).
 struct Glow {
-    int lights;      ///< parts by age
+    int lights;      ///< number of groups by age
     float perMetre;  ///< the thesis's constant k
 };
 
@@ -25,7 +25,7 @@ class ShadingPart : public Part {
     /// Adds to `chunk.luminosityRed`, `…Green`, `…Blue`.
     virtual void shade(Chunk& chunk, const Step& step) const = 0;
 
-    /// What the particles give off to light the scene; empty: nothing.
+    /// The light that the particles cast on the scene; empty: none.
     [[nodiscard]] virtual std::optional<Glow> glow() const { return std::nullopt; }
 };
 

@@ -253,7 +253,7 @@ TEST(AwayVelocity, LeavesTheCentreAndItsSpeedGrowsWithTheDistance) {
             ASSERT_NEAR(glm::length(v), 1 + 3 * glm::length(from), 2e-5);
             ASSERT_GT(glm::dot(v, from), (1 - 1e-4) * glm::length(v) * glm::length(from) - 1e-5);
         }
-        // At the source itself no direction is outward: any direction is valid.
+        // At the source itself no direction is outward, so any direction is valid.
         chiSquareOfSphere(velocitiesOf("part = \"away\", speed = 1", seed));
     }
 }

@@ -12,7 +12,7 @@ constexpr const char* gaussian = "gaussian";
 void declarePicture(ParameterSet& set) {
     std::vector<std::string> names = files::listData("textures", ".png");
     names.insert(names.begin(), gaussian);
-    set.dataFile("picture", gaussian, "textures", ".png", names, "what a sprite shows; a strip has several pictures");
+    set.dataFile("picture", gaussian, "textures", ".png", names, "picture of a sprite; a strip contains several");
 }
 
 std::string pictureOf(const ParameterValues& values) {

@@ -1,5 +1,5 @@
-// The hash of a particle simulation: time, vehicle, moving solids and systems. World and methods use the same function,
-// so that equal hashes mean equal states.
+// The hash of a particle simulation: time, vehicle, moving solids and systems. The world and methods use the same
+// function, so equal hashes mean equal states.
 //
 // Threads: pure.
 #pragma once

@@ -11,9 +11,9 @@
 
 namespace dustbench::particles {
 
-/// A possible place of birth: a point that moves along a line during the step, with axes.
+/// A possible birthplace: a point that moves along a line during the step, with axes.
 struct Emitter {
-    glm::vec3 from{0}, to{0};                  ///< at the beginning and the end of the step
+    glm::vec3 from{0}, to{0};                  ///< at the start and the end of the step
     glm::vec3 velocityFrom{0}, velocityTo{0};  ///< velocity of the carrier
     glm::vec3 forward{1, 0, 0}, up{0, 1, 0}, right{0, 0, 1};
     float speed = 0;  ///< along `forward`, m/s

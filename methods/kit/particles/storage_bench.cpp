@@ -1,5 +1,5 @@
-// Benchmarks scan and churn of linked list, array of structures and structure of arrays, with and without a pool of the
-// dead. The items of a second are particles.
+// Benchmarks scan and churn of linked list, array of structures and structure of arrays, with and without a pool of
+// dead particles. Items per second are particles.
 #include <benchmark/benchmark.h>
 
 #include "methods/kit/maths/philox.h"

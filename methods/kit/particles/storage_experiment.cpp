@@ -79,15 +79,15 @@ class Subject {
     Storage storage_;
 };
 
-/// Returns the ratio of two series that were measured in turn.
+/// Returns the ratio of two series that were measured alternately.
 Finding ratioOf(std::string quantity, const std::vector<double>& above, const std::vector<double>& below) {
     std::vector<double> ratios;
     for (std::size_t i = 0; i < above.size(); ++i) ratios.push_back(above[i] / below[i]);
     return medianOf(std::move(quantity), ratios);
 }
 
-/// Seconds in which a storage grows from nothing to `particles`, in `steps` steps. Memory that was freed before is
-/// given back first: all of them grow into new memory, as a system does that has never been so large.
+/// Seconds in which a storage grows from nothing to `particles`, in `steps` steps. Freed memory is first returned to
+/// the system, so that all storages grow into new memory, like a system that has never been so large.
 template <typename Add>
 double growthSeconds(std::uint64_t seed, std::size_t particles, int steps, const Add& add) {
     Births births(seed, particles / static_cast<std::size_t>(steps));
@@ -100,7 +100,7 @@ double growthSeconds(std::uint64_t seed, std::size_t particles, int steps, const
     return total;
 }
 
-/// Of a list of newly allocated nodes, of an array that doubles its room, and of one that has none to spare.
+/// For a list of newly allocated nodes, an array that doubles its capacity, and one without spare capacity.
 void measureGrowth(std::uint64_t seed, std::size_t particles, int repetitions, std::vector<Finding>& findings) {
     constexpr int steps = 200;
     std::vector<double> list, listAgain, doubling, tight;
@@ -122,7 +122,7 @@ void measureGrowth(std::uint64_t seed, std::size_t particles, int repetitions, s
     findings.push_back(ratioOf("growth_of_equals", listAgain, list));
 }
 
-/// Fewer particles: an array of which each of the dead is erased by itself takes time with the square of their number.
+/// With fewer particles: erasing each dead particle from an array separately takes time by the square of their number.
 void measureErasure(std::uint64_t seed, std::size_t particles, int repetitions, std::vector<Finding>& findings) {
     Subject<List<true>> list(seed, particles);
     Subject<ErasedArray> erased(seed, particles);
@@ -186,7 +186,7 @@ std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, i
 ExperimentInfo describe() {
     ExperimentInfo info;
     info.summary =
-        "Measures the cost of a linked list, arrays and a pool of the dead when particles are scanned and replaced.";
+        "Measures the cost of a linked list, of arrays and of a pool of dead particles, for scans and replacements.";
     info.source = "Thesis";
     info.run = [](ExperimentContext& context) { return measureStorage(context.seed(), 100'000, 25); };
     return info;

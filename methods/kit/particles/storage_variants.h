@@ -1,8 +1,8 @@
-// Three ways to keep particles, each with and without a pool of the dead (claim R22): a linked list, an array of
+// Three ways to store particles, each with and without a pool of dead particles (claim R22): a linked list, an array of
 // structures, a structure of arrays.
 //
 // `scan` ages and moves all particles; `churn` removes the dead and adds newborns. The pool of a list keeps the nodes
-// of the dead. That of an array gives their slots to newborns; without it the survivors are first moved together.
+// of the dead. That of an array gives their slots to newborns; without it, the survivors are compacted first.
 //
 // Units: m, m/s, s. Owns: its particles. Threads: one caller at a time.
 // Source: Thesis, 3.1.2 (attributes) and 3.1.3 and 3.3.1 (list and pool).
@@ -16,7 +16,7 @@
 
 namespace dustbench::particles::storage {
 
-/// The thesis's attributes.
+/// The attributes of a particle in the thesis.
 struct Attributes {
     std::array<float, 3> position{}, velocity{}, acceleration{};
     std::array<float, 4> colour{};
@@ -70,7 +70,7 @@ class List {
             while (free_) delete std::exchange(free_, free_->next);
         for (const Attributes& newborn : newborns) first_ = make(newborn);
     }
-    /// Bytes of a particle with what links it.
+    /// Bytes of a particle with its link.
     static constexpr std::size_t bytesPerParticle() { return sizeof(Node); }
     [[nodiscard]] double sumOfAges() const {
         double sum = 0;
@@ -131,7 +131,7 @@ class ArrayOfStructures {
     std::vector<Attributes> particles_;
 };
 
-/// An array of structures from whose middle each of the dead is erased, so that all behind it move up.
+/// An array of structures from whose middle each dead particle is erased, so that all later ones move up.
 class ErasedArray {
  public:
     void scan(float seconds) {
@@ -155,8 +155,8 @@ class ErasedArray {
     std::vector<Attributes> particles_;
 };
 
-/// An array without spare room: whoever grows it allocates anew and moves all (`std::vector` does so at each doubling
-/// of its size). This is the thesis's array where no adjacent memory is free.
+/// An array without spare capacity: to grow, it allocates again and moves all elements (`std::vector` does so at each
+/// doubling of its size). This is the thesis's array if no adjacent memory is free.
 class TightArray {
  public:
     void add(const std::vector<Attributes>& newborns) {
@@ -221,7 +221,7 @@ class StructureOfArrays {
     void copy(std::size_t from, std::size_t to) {
         for (auto& column : columns_) column[to] = column[from];
     }
-    /// Returns the number of newborns put into slots of the dead; `kept` becomes the number of particles then.
+    /// Returns the number of newborns put into slots of the dead; `kept` becomes the new number of particles.
     std::size_t fillHoles(const std::vector<Attributes>& newborns, std::size_t& kept) {
         std::size_t used = 0;
         for (std::size_t i = 0; i < kept;) {

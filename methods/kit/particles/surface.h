@@ -1,7 +1,7 @@
 // Surfaces that particles may hit during a step, and the response to a contact.
 //
 // Units: m, m/s, s. Frame: world. Threads: const members are safe from any.
-// Source: Thesis, 5.3.2 and 6.1. Departs: the way from the old to the new position is tested as a segment, so that no
+// Source: Thesis, 5.3.2 and 6.1. Departs: the path from the old to the new position is tested as a segment, so that no
 // speed is too high; the thesis tests positions.
 #pragma once
 
@@ -13,12 +13,12 @@
 
 namespace dustbench::particles {
 
-/// The straight ways of `count` particles, each to the end of the step.
+/// The straight paths of `count` particles, each until the end of the step.
 struct Ways {
     std::size_t count;
     const float *fromX, *fromY, *fromZ;
     const float *toX, *toY, *toZ;
-    const float* seconds;  ///< how long each takes: it begins so long before the step's end
+    const float* seconds;  ///< duration of each: it starts this long before the step's end
 
     [[nodiscard]] glm::vec3 from(std::size_t i) const { return {fromX[i], fromY[i], fromZ[i]}; }
     [[nodiscard]] glm::vec3 to(std::size_t i) const { return {toX[i], toY[i], toZ[i]}; }
@@ -31,7 +31,7 @@ struct Contact {
     bool kills = false;  ///< the particle dies at the contact
 };
 
-/// One way, and the share of it at which it meets a surface.
+/// One path, and its share at which it hits a surface.
 struct Meeting {
     glm::vec3 from, to;
     float seconds;
@@ -49,23 +49,23 @@ struct Touch {
 
 class Surface {
  public:
-    /// The share that stands for a path without contact.
+    /// Share of a path without contact.
     static constexpr float none = 2;
 
     virtual ~Surface() = default;
 
-    /// Called once per step, before all ways.
+    /// Called once per step, before all paths.
     virtual void begin(const Step&) {}
-    /// Writes the share of each way, 0..1, at which it first meets the surface, or `none`.
+    /// Writes the share of each path, 0..1, at which it first hits the surface, or `none`.
     virtual void meet(const Ways& ways, float* share) const = 0;
-    /// The contact of a way at the share that `meet` gave it.
+    /// The contact of a path at the share that `meet` returned for it.
     [[nodiscard]] virtual Touch touchAt(const Meeting& meeting) const = 0;
-    /// Largest coordinate that enters the test, for bounds on its rounding.
+    /// Largest coordinate that enters the test, as a bound on its rounding error.
     [[nodiscard]] virtual float extentMetres() const = 0;
     [[nodiscard]] virtual std::size_t bytes() const { return 0; }
 };
 
-/// |x| + |y| + |z|: what a position adds to an extent.
+/// |x| + |y| + |z|: the contribution of a position to an extent.
 [[nodiscard]] inline float sumOfSizes(const glm::vec3& v) {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }

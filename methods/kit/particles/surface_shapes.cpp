@@ -11,8 +11,8 @@
 namespace dustbench::particles {
 namespace {
 
-/// d = n·(x − p): hit where d becomes negative. A particle that starts behind the plane and moves deeper is hit at
-/// once.
+/// d = n·(x − p): hit where d becomes negative. A particle that starts behind the plane and moves deeper is hit
+/// immediately.
 void meetHalfSpace(const Ways& ways, float* __restrict share, const glm::vec3 p, const glm::vec3 n) {
     for (std::size_t i = 0; i < ways.count; ++i) {
         const float before = n.x * (ways.fromX[i] - p.x) + n.y * (ways.fromY[i] - p.y) + n.z * (ways.fromZ[i] - p.z);
@@ -33,13 +33,13 @@ void meetSphere(const Ways& ways, float* __restrict share, const glm::vec3 c, co
         const float outside = ox * ox + oy * oy + oz * oz - radius * radius;
         const float root = towards * towards - (wx * wx + wy * wy + wz * wz) * outside;
         const float at = outside / (towards + std::sqrt(root > 0.0f ? root : 0.0f));
-        const float first = outside > 0.0f ? at : 0.0f;  // inside and moving deeper: hit at once
+        const float first = outside > 0.0f ? at : 0.0f;  // inside and moving deeper: hit immediately
         const bool met = (towards > 0.0f) & (root >= 0.0f) & (first <= 1.0f);
         share[i] = met ? first : Surface::none;
     }
 }
 
-/// d = n·(x − c): hit where d changes its sign within the radius.
+/// d = n·(x − c): hit where d changes sign within the radius.
 void meetDisc(const Ways& ways, float* __restrict share, const glm::vec3 c, const glm::vec3 n, const float radius) {
     for (std::size_t i = 0; i < ways.count; ++i) {
         const float ox = ways.fromX[i] - c.x, oy = ways.fromY[i] - c.y, oz = ways.fromZ[i] - c.z;
@@ -96,7 +96,7 @@ class Disc final : public Surface {
     SurfaceNumbers n_;
 };
 
-/// Only paths whose bounding box overlaps the mesh's are passed to the tree.
+/// Passes only paths whose bounding box overlaps the mesh's to the tree.
 class MeshSurface final : public Surface {
  public:
     MeshSurface(const ParameterValues& values, const glm::vec3& place) {
@@ -136,15 +136,15 @@ class MeshSurface final : public Surface {
 
 void declareSurface(ParameterSet& set) {
     set.choice("shape", SurfaceShape::halfSpace, surfaceShapes,
-               "what particles meet; scene: the scene's ground, its solids and the moving vehicle");
+               "the surface; scene: the scene's ground, solids and moving vehicle");
     declareVector(set, "place", spaceAxes, {0, 0, 0}, -1e6, 1e6, "m",
-                  "a point of the half-space's plane, the centre of sphere or disc, the origin of the mesh");
-    declareVector(set, "normal", spaceAxes, {0, 1, 0}, -1, 1, "", "of half-space and disc, out of the solid");
-    set.real("radius_metres", 1, 1e-3, 1e5, "m", "of sphere and disc");
+                  "a point on the half-space's plane, the centre of sphere or disc, the origin of the mesh");
+    declareVector(set, "normal", spaceAxes, {0, 1, 0}, -1, 1, "", "normal of half-space or disc, outwards");
+    set.real("radius_metres", 1, 1e-3, 1e5, "m", "radius of sphere or disc");
     declareMesh(set);
-    set.boolean("on_ground", true, "of a scene: its ground")
-        .boolean("on_solids", true, "of a scene: its solids")
-        .boolean("on_vehicle", true, "of a scene: the vehicle and its wheels");
+    set.boolean("on_ground", true, "for a scene: includes its ground")
+        .boolean("on_solids", true, "for a scene: includes its solids")
+        .boolean("on_vehicle", true, "for a scene: includes the vehicle and its wheels");
 }
 
 SurfaceNumbers surfaceNumbers(const ParameterValues& values) {

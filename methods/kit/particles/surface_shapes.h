@@ -1,4 +1,4 @@
-// The surfaces that a part can name: half-space, sphere, disc, mesh, or what the scene holds.
+// The surfaces that a part can name: half-space, sphere, disc, mesh, or the contents of the scene.
 //
 // Units: m. Frame: world. Source: Thesis, 6.1.2 to 6.1.4.
 #pragma once
@@ -17,7 +17,7 @@ inline constexpr Choices<SurfaceShape> surfaceShapes{{"half_space", SurfaceShape
                                                      {"mesh", SurfaceShape::mesh},
                                                      {"scene", SurfaceShape::scene}};
 
-/// The parameters of the shape, for parts that follow the thesis's own test.
+/// The parameters of the shape, for parts that use the thesis's own test.
 struct SurfaceNumbers {
     SurfaceShape shape;
     glm::vec3 place;

@@ -31,7 +31,7 @@ inline void declareVector(ParameterSet& set, const std::string& name, const std:
 [[nodiscard]] inline glm::vec3 directionOf(const ParameterValues& values, const std::string& name) {
     const glm::vec3 direction = vectorOf(values, name, spaceAxes);
     if (!(glm::length(direction) > 1e-6f))
-        throw InputError("parameter " + name + ": got [0, 0, 0], allowed: any direction, of some length");
+        throw InputError("parameter " + name + ": got [0, 0, 0], allowed: a vector of non-zero length");
     return glm::normalize(direction);
 }
 

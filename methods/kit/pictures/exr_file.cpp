@@ -1,4 +1,4 @@
-// EXR files through OpenEXR; floats are written losslessly.
+// EXR files, through OpenEXR; floats are written losslessly.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>

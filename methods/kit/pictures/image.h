@@ -26,7 +26,7 @@ using maths::encodeSrgb;
 /// sizes.
 [[nodiscard]] DUSTBENCH_API Image over(const Image& layer, const Image& scene);
 
-/// A display-encoded (sRGB) image in linear light; alpha as it is.
+/// Decodes an image from sRGB to linear light; alpha is unchanged.
 [[nodiscard]] DUSTBENCH_API Image decoded(Image image);
 
 /// Selects the format by extension: .png (8 bit, sRGB encoded) or .exr (float, linear). Writes a temporary file and

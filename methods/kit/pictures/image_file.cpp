@@ -43,15 +43,15 @@ std::vector<std::uint8_t> encodedBytes(const Image& image, bool withAlpha) {
     return bytes;
 }
 
-/// Empty on success, else the reason for the failure.
+/// Empty on success; otherwise the reason for the failure.
 std::string tryToWrite(const Image& image, const fs::path& file, bool png) {
     if (!png) return writeExr(file, image.width, image.height, {&image.pixels[0].x, image.pixels.size() * 4});
     const bool withAlpha = !isOpaque(image);
     return writePng(file, image.width, image.height, withAlpha ? 4 : 3, encodedBytes(image, withAlpha));
 }
 
-/// A pixel's channels as RGBA, straight or premultiplied: the channels but alpha are red, green and blue, or else the
-/// first of them is grey; missing alpha is 1, and alpha alone is grey as well.
+/// A pixel's channels as RGBA, straight or premultiplied. The channels other than alpha are red, green and blue, or the
+/// first of them is grey. Missing alpha is 1; alpha alone also serves as grey.
 glm::vec4 toRgba(std::span<const float> channels, int alphaChannel) {
     const auto count = static_cast<int>(channels.size());
     const bool hasAlpha = alphaChannel >= 0 && alphaChannel < count;
@@ -93,7 +93,7 @@ void writeImage(const Image& image, const fs::path& file) {
     if (image.width < 1 || image.height < 1)
         throw InputError("cannot write image '" + file.string() + "': it has no pixels");
 
-    // A temporary file beside the target keeps the rename within one file system; the process id makes its name unique.
+    // A temporary file next to the target keeps the rename within one file system; the process id makes it unique.
     fs::path beside = file;
     beside += ".part" + std::to_string(getpid());
     const auto fail = [&](const std::string& reason, int error) {

@@ -170,7 +170,7 @@ TEST_F(ImageFile, UnreadableOnesAreNamedInOneLine) {
     EXPECT_EQ(missing.find('\n'), std::string::npos);
 }
 
-/// The head of a PNG file: all that a bomb needs.
+/// The header of a PNG file, which is all that a decompression bomb needs.
 std::string pngHead(std::uint32_t width, std::uint32_t height, int bits, int colours) {
     const auto word = [](std::uint32_t value) {
         std::string bytes;
@@ -191,7 +191,7 @@ std::string pngHead(std::uint32_t width, std::uint32_t height, int bits, int col
     return "\x89PNG\r\n\x1a\n" + word(13) + head + crc(head) + word(3) + data + crc(data);
 }
 
-/// Kilobytes of memory that the process has had at most.
+/// Peak memory of the process in kilobytes.
 long peakKilobytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -209,7 +209,7 @@ TEST_F(ImageFile, BombsAreRefusedByTheirHeaders) {
         EXPECT_THAT(refusal(pngHead(30'000, 30'000, 8, colours)), testing::HasSubstr("allowed: 16384 a side"));
     EXPECT_THAT(refusal(pngHead(30'000, 30'000, 16, 6)), testing::HasSubstr("allowed: 16384 a side"));
     EXPECT_THAT(refusal(pngHead(16'384, 16'384, 8, 2)), testing::HasSubstr("allowed: 1 GB decoded"));
-    EXPECT_THAT(refusal(pngHead(8'000, 8'000, 8, 2)), testing::HasSubstr("says too many pixels"));
+    EXPECT_THAT(refusal(pngHead(8'000, 8'000, 8, 2)), testing::HasSubstr("states too many pixels"));
     testing::internal::CaptureStderr();
     EXPECT_THAT(refusal(pngHead(1'000'000'000, 3, 8, 2)), testing::HasSubstr("bomb.png"));
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");

@@ -1,4 +1,4 @@
-// Pictures as OpenImageIO's own command writes them are read with the colours that they show.
+// Tests that pictures written by OpenImageIO's own command are read with the colours that they display.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -20,7 +20,7 @@
 namespace dustbench::pictures {
 namespace {
 
-/// What `oiiotool` makes by these arguments.
+/// The file that `oiiotool` makes with these arguments.
 std::filesystem::path made(const TestFolder& folder, const std::string& name, const std::string& arguments) {
     std::filesystem::path file = folder.path() / name;
     const std::string command = "oiiotool " + arguments + " -o '" + file.string() + "' > /dev/null 2>&1";
@@ -57,8 +57,8 @@ void PrintTo(const Written& written, std::ostream* stream) {
     *stream << written.name << ' ' << written.depth;
 }
 
-/// Every format that OpenImageIO writes pictures of colours to: the same values mean encoded colours in integers and
-/// linear ones in floats.
+/// Every format in which OpenImageIO writes colours: the same values mean encoded colours in integers and linear ones
+/// in floats.
 TEST(OtherFormats, IntegersAreEncodedAndFloatsLinear) {
     constexpr float eight = 0.5f / 255, lossy = 0.02f;
     const TestFolder folder;
@@ -106,7 +106,7 @@ TEST(OtherFormats, IntegersAreEncodedAndFloatsLinear) {
     }
 }
 
-/// OpenImageIO 2.4 writes other values than it is given to a .ppm of 16 bits, so these are made here.
+/// OpenImageIO 2.4 writes wrong values to a .ppm of 16 bits, so these files are made here.
 TEST(OtherFormats, PnmOf16BitsIsEncodedAndPfmLinear) {
     const TestFolder folder;
     std::string encoded = "P6\n8 8\n65535\n", grey = "P5\n8 8\n65535\n", linear = "PF\n8 8\n-1.0\n";
@@ -123,7 +123,7 @@ TEST(OtherFormats, PnmOf16BitsIsEncodedAndPfmLinear) {
     expectEverywhere(readImage(folder.write("a.pfm", linear)), {0.6f, 0.3f, 0.15f, 1}, 1e-6f, "pfm");
 }
 
-/// A file of one PNG whose header is followed by a chunk gAMA of this many hundred thousandths.
+/// A PNG file with a gAMA chunk of this many hundred thousandths after the header.
 std::filesystem::path withGamma(const TestFolder& folder, const std::filesystem::path& png,
                                 unsigned hundredThousandths) {
     std::ifstream stream(png, std::ios::binary);
@@ -190,12 +190,12 @@ TEST(OtherFormats, ExrFillsItsDisplayWindow) {
     expectFilled((pixels + "--origin +0+0").c_str(), 0, 0);
     expectFilled((pixels + "--origin +7+6").c_str(), 7, 6);
     expectFilled((pixels + "--origin -2-1").c_str(), -2, -1);  // overscan is not shown
-    expectFilled((pixels + "--origin +30+0").c_str(), 30, 0);  // nothing is
+    expectFilled((pixels + "--origin +30+0").c_str(), 30, 0);  // nothing is shown
     expectFilled("--pattern constant:color=0.5,0.25,1 4x3 3 -d float --fullsize 12x10+100+50 --origin +101+52", 1, 2);
     StoredPicture size;
     EXPECT_EQ(readPictureSize(folder.path() / "a.exr", size), "");
     EXPECT_EQ(size.width, 12);
-    // The place of a picture on a page, as scanners and GIMP write it, moves nothing.
+    // The position of a picture on a page, as scanners and GIMP write it, has no effect.
     EXPECT_EQ(readImage(made(folder, "b.png", "--pattern constant:color=1 4x3 3 --origin +2+1 -d uint16")).width, 4);
 }
 

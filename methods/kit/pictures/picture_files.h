@@ -1,6 +1,6 @@
-// Picture files: the formats that runs use through their own libraries, all others through OpenImageIO.
+// Reads and writes picture files: the formats of runs through their own libraries, all others through OpenImageIO.
 //
-// A run that reads 8-bit PNG and writes PNG and EXR need not load OpenImageIO (picture_library.h).
+// A run, which reads 8-bit PNG and writes PNG and EXR, need not load OpenImageIO (picture_library.h).
 // Units: pixels, rows from the top. Errors: returned as text, empty on success. Threads: any; calls are independent.
 #pragma once
 
@@ -17,16 +17,16 @@ namespace dustbench::pictures {
 /// Reads any file that OpenImageIO can read, within the limits of kit/files/limits.h, which are checked against the
 /// header before memory for the pixels is allocated.
 [[nodiscard]] DUSTBENCH_API std::string readPicture(const std::filesystem::path& file, StoredPicture& picture);
-/// Width and height alone, which is quick however large the picture is; the rest of `picture` stays as it is.
+/// Reads only width and height, which is fast for any size; the rest of `picture` is unchanged.
 [[nodiscard]] DUSTBENCH_API std::string readPictureSize(const std::filesystem::path& file, StoredPicture& picture);
-/// The file's parts that no one uses who takes the first `colours` channels other than alpha, and alpha if he wants it:
-/// `channel 'Z'`.
+/// The parts of the file that remain unused if the first `colours` channels other than alpha are read, and alpha on
+/// request: `channel 'Z'`.
 [[nodiscard]] DUSTBENCH_API std::vector<std::string> unusedParts(const StoredPicture& picture, int colours,
                                                                  bool usesAlpha);
 /// sRGB; four channels include straight alpha, else three.
 [[nodiscard]] std::string writePng(const std::filesystem::path& file, int width, int height, int channels,
                                    std::span<const std::uint8_t> bytes);
-/// The same as a file's bytes, in memory.
+/// The same in memory: the bytes of the file.
 [[nodiscard]] std::string encodePng(int width, int height, int channels, std::span<const std::uint8_t> bytes,
                                     std::string& png);
 /// RGBA, linear, premultiplied.

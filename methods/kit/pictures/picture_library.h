@@ -1,8 +1,8 @@
 // The interface to OpenImageIO, in a library that is loaded on first use.
 //
-// OpenImageIO brings some 250 libraries with it, and linking them took most of every start; the files that runs read
-// and write do not need it (picture_files.h). openimageio/ implements this interface, built as libdustbench_pictures.so
-// beside the kit.
+// Linking OpenImageIO and its 250 or so libraries took most of every start, and the files that runs read and write do
+// not need it (picture_files.h). openimageio/ implements this interface; it is built as libdustbench_pictures.so next
+// to the kit.
 // Units: pixels, rows from the top. Errors: returned as text, empty on success. Threads: any; calls are independent.
 #pragma once
 
@@ -24,7 +24,7 @@ struct StoredPicture {
     bool isPremultiplied = false;             ///< by alpha
     std::vector<float> values;                ///< pixel by pixel
     std::vector<std::string> channelNames{};  ///< empty: grey or RGB, and alpha
-    std::vector<std::string> ignored{};       ///< what the file holds besides: `layers`
+    std::vector<std::string> ignored{};       ///< other contents of the file: `layers`
 };
 
 class PictureLibrary {
@@ -32,7 +32,7 @@ class PictureLibrary {
     virtual ~PictureLibrary() = default;
 
     [[nodiscard]] virtual std::string read(const std::filesystem::path& file, StoredPicture& picture) const = 0;
-    /// Width and height alone: nothing else is read.
+    /// Reads only width and height.
     [[nodiscard]] virtual std::string readSize(const std::filesystem::path& file, StoredPicture& picture) const = 0;
     /// RGB, sRGB; quality is at most 100. Returns the encoded bytes; writes no file.
     [[nodiscard]] virtual std::string encodeJpeg(int width, int height, std::span<const std::uint8_t> rgb, int quality,
@@ -43,7 +43,7 @@ class PictureLibrary {
                                              std::span<float> to, int width, int height) const = 0;
 };
 
-/// Loads the library on first call. Throws std::runtime_error if it is not there.
+/// Loads the library on first call. Throws std::runtime_error if it is missing.
 [[nodiscard]] DUSTBENCH_API const PictureLibrary& pictureLibrary();
 
 }  // namespace dustbench::pictures

@@ -1,5 +1,5 @@
-// A wall of pictures as other programs write them: format × depth × what the file says of its colours, with the linear
-// light that it means, or the reason why it is refused.
+// A table of pictures as other programs write them: format × depth × colour encoding, with the resulting linear light
+// or the reason for the refusal.
 //
 // OpenImageIO's own command makes the files; chunks and profiles that it does not write are added here.
 #include <gmock/gmock.h>
@@ -48,7 +48,7 @@ std::string pngChunk(const std::string& type, const std::string& data) {
     return word32(data.size()) + body + word32(sum);
 }
 
-/// A profile with nothing but its description, which readers that do not convert look at.
+/// A profile with only a description, which readers that do not convert use.
 std::string iccProfile(const std::string& description) {
     const std::string text =
         std::string("desc") + word32(0) + word32(description.size() + 1) + description + std::string(79, '\0');
@@ -64,7 +64,7 @@ std::string iccChunk(const std::string& description) {
     const std::string profile = iccProfile(description);
     std::string packed(compressBound(profile.size()) + 64, '\0');
     uLongf bytes = packed.size();
-    // Not made smaller, for libpng drops chunks that are shorter than any whole profile.
+    // Not made smaller, because libpng drops chunks that are shorter than any complete profile.
     EXPECT_EQ(compress2(reinterpret_cast<Bytef*>(packed.data()), &bytes, reinterpret_cast<const Bytef*>(profile.data()),
                         profile.size(), 0),
               Z_OK);
@@ -106,7 +106,7 @@ TEST(PictureWall, ColoursAreWhatTheirFilesSay) {
              {"a.jpg", "uint8", "", "--attrib oiio:ColorSpace sRGB"},
              {"a.jpg", "uint8"},
              {"a.tif", "uint8", "", "--attrib oiio:ColorSpace sRGB"},
-             {"a.tif", "uint16", "", "--attrib oiio:ColorSpace Linear"},  // which TIFF cannot say
+             {"a.tif", "uint16", "", "--attrib oiio:ColorSpace Linear"},  // TIFF cannot store it
              {"a.tif", "half", "", "", 'l'},
              {"a.tif", "float", "", "", 'l'},
              {"a.tif", "float", "", "--attrib oiio:ColorSpace sRGB"},

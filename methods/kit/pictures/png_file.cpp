@@ -1,4 +1,4 @@
-// PNG files through libpng: 8-bit files are read here, others by OpenImageIO.
+// PNG files, through libpng: 8-bit files are read here, others by OpenImageIO.
 #include <png.h>
 
 #include <array>
@@ -12,7 +12,7 @@
 namespace dustbench::pictures {
 namespace {
 
-/// RAII wrapper of libpng's picture description.
+/// RAII wrapper of libpng's image structure.
 class PngImage {
  public:
     PngImage() { image_.version = PNG_IMAGE_VERSION; }
@@ -33,8 +33,8 @@ bool isPng(const std::filesystem::path& file) {
     return png_sig_cmp(start.data(), 0, start.size()) == 0;
 }
 
-/// True if the file says which power its samples are encoded by, which libpng's simple reader would apply to them, or
-/// has a profile of its colours, which it would ignore.
+/// True if the file has a gamma, which libpng's simple reader would apply, or a colour profile, which it would
+/// ignore.
 bool saysColours(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     stream.seekg(8);
@@ -48,7 +48,7 @@ bool saysColours(const std::filesystem::path& file) {
     return false;
 }
 
-/// PNG packs at most 1,032 bytes into one, and eight pixels into a byte: a short file cannot hold a large picture.
+/// PNG packs at most 1,032 bytes into one, and eight pixels into a byte, so a short file cannot hold a large picture.
 bool isTooShort(const std::filesystem::path& file, const png_image& image) {
     std::error_code none;
     constexpr std::uintmax_t pixelsPerByte = 8 * 1032;
@@ -60,8 +60,8 @@ bool isTooShort(const std::filesystem::path& file, const png_image& image) {
 std::string readPicture(const std::filesystem::path& file, StoredPicture& picture) {
     if (std::string reason = files::refusalOf(file, files::limits::geometryBytes); !reason.empty()) return reason;
     PngImage image;
-    // OpenImageIO handles everything but plain 8-bit PNG in sRGB. It lets libpng write to standard error where PNG is
-    // damaged.
+    // OpenImageIO handles everything but plain 8-bit PNG in sRGB. With a damaged PNG it lets libpng write to standard
+    // error.
     const bool begun = png_image_begin_read_from_file(image.get(), file.c_str()) != 0;
     if (!begun && isPng(file)) return image.message();
     if (!begun || (image->format & (PNG_FORMAT_FLAG_LINEAR | PNG_FORMAT_FLAG_COLORMAP)) != 0 ||
@@ -69,7 +69,7 @@ std::string readPicture(const std::filesystem::path& file, StoredPicture& pictur
         return pictureLibrary().read(file, picture);
     const int channels = static_cast<int>(PNG_IMAGE_SAMPLE_CHANNELS(image->format));
     if (std::string reason = tooLarge(image->width, image->height, channels); !reason.empty()) return reason;
-    if (isTooShort(file, *image.get())) return "it is cut, or its header says too many pixels";
+    if (isTooShort(file, *image.get())) return "it is truncated, or its header states too many pixels";
     std::vector<std::uint8_t> bytes(PNG_IMAGE_SIZE(*image.get()));
     if (png_image_finish_read(image.get(), nullptr, bytes.data(), 0, nullptr) == 0) return image.message();
     const bool hasAlpha = (image->format & PNG_FORMAT_FLAG_ALPHA) != 0;
@@ -116,7 +116,7 @@ std::string writePng(const std::filesystem::path& file, int width, int height, i
 std::string encodePng(int width, int height, int channels, std::span<const std::uint8_t> bytes, std::string& png) {
     PngImage image;
     describe(image, width, height, channels);
-    png_alloc_size_t size = 0;  // asked for first: the whole is encoded twice
+    png_alloc_size_t size = 0;  // queried first, which encodes the picture twice
     if (png_image_write_to_memory(image.get(), nullptr, &size, 0, bytes.data(), 0, nullptr) == 0)
         return image.message();
     png.resize(size);

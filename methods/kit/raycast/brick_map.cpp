@@ -21,7 +21,7 @@ constexpr std::size_t rowsPerBlock = 256;
              << ", " << i / nx / ny << "), allowed: 0 or more";
         throw InputError(text.str());
     }
-    throw std::logic_error("brick map: a value was refused that is allowed");
+    throw std::logic_error("brick map: an allowed value was refused");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Finds the bricks of a grid in which a sample could see any density.
+// Finds the bricks of a grid in which a sample could have density.
 //
 // A brick is occupied if one of its cells, or of the surrounding cells within the filter's reach, has density.
 // Units: cells. Owns: its memory, booked on a ledger. Threads: set() runs in parallel.

@@ -1,10 +1,10 @@
 // Samples a grid at sixteen positions at once: from a window of cells in registers, or from memory.
 //
-// The rays of a packet are so close together that usually all eight neighbours of all their samples lie within 4×4×3
+// The rays of a packet are so close together that usually all eight neighbours of all their samples are within 4×4×3
 // cells. These are read once, and the neighbours are selected in registers: on AVX-512 this takes a seventh of the time
 // of gathering them.
 //
-// Units: cells; positions are relative to the middle of the first cell.
+// Units: cells; positions are relative to the centre of the first cell.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -63,7 +63,7 @@ class CellWindow {
         for (int k = 0; k < 3; ++k) slabs_[k] = joined(rowAt(k, 0), rowAt(k, 1), rowAt(k, 2), rowAt(k, 3));
     }
 
-    /// Positions relative to the middle of the first cell: less than (3, 3, 2).
+    /// Positions relative to the centre of the first cell: less than (3, 3, 2).
     [[gnu::always_inline]] [[nodiscard]] Floats sample(const Places& at) const {
         const Ints i = wholePart(at.x), j = wholePart(at.y), k = wholePart(at.z);
         const Places share{at.x - toFloats(i), at.y - toFloats(j), at.z - toFloats(k)};

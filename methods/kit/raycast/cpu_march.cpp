@@ -29,7 +29,7 @@ Floats sampleCubic(const PaddedCells& cells, const Places& at) {
     });
 }
 
-/// The values of the cells at positions relative to the middle of the first cell.
+/// The values of the cells at positions relative to the centre of the first cell.
 Floats sampleNearest(const PaddedCells& cells, const Places& at) {
     const auto cellOf = [](const Floats& place, int count) {
         return wholePart(atLeast(atMost(place + 0.5f, all(static_cast<float>(count - 1))), all(0)));
@@ -42,7 +42,7 @@ Floats sampleNearest(const PaddedCells& cells, const Places& at) {
     return values;
 }
 
-/// Whether any brick that a box of cells touches is occupied.
+/// True if any brick that a box of cells touches is occupied.
 bool anyOccupied(const BrickMap& bricks, const Four& low, const Four& high) {
     constexpr float perCell = 1.0f / BrickMap::edge;
     const FourInts none{}, end{bricks.bricks().x - 1, bricks.bricks().y - 1, bricks.bricks().z - 1, 0};
@@ -55,7 +55,7 @@ bool anyOccupied(const BrickMap& bricks, const Four& low, const Four& high) {
     return false;
 }
 
-/// What a packet's rays see in a dense grid.
+/// A probe of a dense grid for a packet of rays.
 struct Grid {
     Field density;
     std::optional<Field> reaction;  ///< empty: no fire

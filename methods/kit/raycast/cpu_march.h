@@ -48,7 +48,7 @@ class CpuMarch {
 
     /// 1 for smoke of uniform colour, else 4.
     [[nodiscard]] int channels() const { return burning_ || light_ ? 4 : 1; }
-    /// `picture.channels` must equal `channels()`; `thickness`: share of the extinction that the densities have.
+    /// `picture.channels` must equal `channels()`; `thickness`: share of the extinction of the densities.
     void march(const PixelRays& rays, const SceneDepths& depths, const Reflected& reflected,
                const PacketPicture& picture, float thickness = 1) const;
 

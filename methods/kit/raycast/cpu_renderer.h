@@ -1,6 +1,6 @@
 // Renders with the CPU march: reads back the scene's depths, marches, and composites the picture over the layer.
 //
-// Owns: the grid in the march's layout, the picture on the GPU. Threads: the OpenGL thread; the march runs in parallel.
+// Owns: the grid in the march's layout, and the picture on the GPU. Threads: the OpenGL thread; the march is parallel.
 #pragma once
 
 #include "methods/kit/raycast/cpu_march.h"

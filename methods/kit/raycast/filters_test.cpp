@@ -10,7 +10,7 @@
 namespace dustbench::raycast {
 namespace {
 
-/// The value that a filter gives at a place in cells, of a layer of cells with edges of 1: closed forms.
+/// Closed forms of a filter's value at a position in cells, for a layer of cells with edges of 1.
 double filtered(const TestGrid& layer, Filter filter, const glm::dvec2& place) {
     const auto at = [&](int x, int y) {
         const glm::ivec2 cell = glm::clamp(glm::ivec2(x, y), glm::ivec2(0), glm::ivec2(layer.cells) - 1);
@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, FiltersOn, ::testing::Values(Backend::cpu, Ba
 
 TEST_P(FiltersOn, ShowALayerOfCellsByTheirClosedForms) {
     Canvas canvas;
-    canvas.view.camera.verticalFieldOfView = 0.05;  // each ray keeps to one place of the layer
+    canvas.view.camera.verticalFieldOfView = 0.05;  // each ray stays at one position of the layer
     canvas.lookFrom({0, 0, 200}, {0, 0, -1});
     std::mt19937 random(7);
     std::uniform_real_distribution<double> share(0, 1);

@@ -1,4 +1,4 @@
-// Finds the bricks of a grid that hold density, and their bounding box; one thread per brick. See brick_map.h.
+// Finds the bricks of a grid with density, and their bounding box; one thread per brick. See brick_map.h.
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 layout(binding = 0, r8) restrict writeonly uniform image3D bricks;
 layout(binding = 1) uniform sampler3D density;

@@ -3,10 +3,10 @@
 //     D ← D + σ·Δ,   T = e^(−D),   C ← C + (T before − T after)·(reflected + emission)
 //
 // Steps end at distances (k + jitter)·step from the eye on either side of the grid. The first and the last step are
-// cut to the part within the grid and before the scene. Each step is sampled in its middle.
+// cut to the part within the grid and in front of the scene. Each step is sampled at its middle.
 // Source: Senger2009, ch. 4. Departs: computes entry, length and cuts per pixel instead of drawing them first.
 layout(binding = 0) uniform sampler2D sceneDepth;
-// SPARSE: whoever defines it (grid_optics.glsl) defines stepsClear() as well, which then is the way to skip.
+// SPARSE: the code that defines it (grid_optics.glsl) also defines stepsClear(), which then skips empty space.
 #ifdef SKIP
 #ifndef SPARSE
 layout(binding = 2) uniform sampler3D bricks;  // 0: empty
@@ -108,7 +108,7 @@ void main() {
     float shift = jitter() * stepLength;
     float k = floor((enter - shift) / stepLength) + 1.0;  // the step that starts at `from` ends at `next` or `end`
     float next = k * stepLength + shift, from = max(next - stepLength, box.x);
-    // Counted, because the loop would not end far away, where float precision cannot separate steps.
+    // Counted, because the loop would not end at large distances, where float precision cannot separate steps.
     for (int steps = int((last - enter) / stepLength) + 3; steps > 0 && from < last && depth <= opaqueDepth; --steps) {
         float to = min(next, end);
         march(eye + 0.5 * (from + to) * ray, to - from);
@@ -116,7 +116,7 @@ void main() {
         k += 1.0;
         next = k * stepLength + shift;
 #if defined(SKIP) && defined(SPARSE)
-        // Whole steps, so that those beyond are where they would be without it.
+        // Whole steps, so that later steps are where they would be without skipping.
         int clear = stepsClear(eye + from * ray, ray, stepLength);
         if (clear > 0) {
             steps -= clear;

@@ -1,4 +1,4 @@
-// A grid in textures, as read by the shaders that use grid_optics.glsl.
+// A grid in textures for the shaders that use grid_optics.glsl.
 //
 // Owns: the textures. Threads: the OpenGL thread.
 #pragma once

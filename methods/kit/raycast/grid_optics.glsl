@@ -1,7 +1,7 @@
 // Optical properties of a grid of cells: density, light and fire at any position.
 //
 // Lengths are in cells; positions are relative to the grid's minimum corner.
-// SPARSE: the densities are elsewhere, and whoever defines it defines densityAt() and reactionAt() before this.
+// SPARSE: the densities are stored elsewhere; the code that defines it first defines densityAt() and reactionAt().
 #ifndef SPARSE
 layout(binding = 1) uniform sampler3D density;
 #endif
@@ -18,7 +18,7 @@ uniform vec3 reflectedSky, reflectedSun;
 uniform vec3 toSun;
 uniform float asymmetry;
 
-// What the sun's light is multiplied by on a ray of this direction from the eye, as scene::phaseFactor.
+// The factor on the sun's light for a ray in this direction from the eye, as scene::phaseFactor.
 float phaseOf(vec3 along) {
     float square = 1.0 + asymmetry * (asymmetry - 2.0 * dot(along, toSun));
     return (1.0 - asymmetry * asymmetry) / (square * sqrt(square));
@@ -36,7 +36,7 @@ uniform vec3 cells;
 uniform float extinction;  // of a density of 1, per cell
 
 #ifdef SPARSE
-// Nothing: see above.
+// Nothing; see above.
 #elif defined(NEAREST)
 float sampled(sampler3D field, vec3 at) {
     return texelFetch(field, clamp(ivec3(floor(at)), ivec3(0), ivec3(cells) - 1), 0).r;

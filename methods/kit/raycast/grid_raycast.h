@@ -18,20 +18,20 @@ class DUSTBENCH_API GridRaycast {
     /// `device` and `ledger` must outlive this. Throws InputError for settings out of range.
     GridRaycast(gpu::Device& device, const RaycastSettings& settings, const scene::Lights& lights,
                 MemoryLedger& ledger);
-    /// For another grid of the same picture, with the same settings: both share their programs.
+    /// For another grid of the same picture, with the same settings: the two share their programs.
     GridRaycast(Beside, const GridRaycast& sibling);
 
-    /// Copies everything that is drawn; the grid need not outlive the call. Throws InputError if the grid has no cells
-    /// or a density is negative or NaN; nothing is drawn after an error.
+    /// Copies all data to draw; the grid need not outlive the call. Throws InputError if the grid has no cells or a
+    /// density is negative or NaN; nothing is drawn after an error.
     /// `arriving`: see LightVolume::set.
     void upload(const ShownGrid& grid, const std::function<float(const glm::dvec3&)>& arriving = {});
 
     /// The same for a grid that is already on the GPU; only if `takesTextures()`.
     void take(const ShownTextures& grid);
-    /// True for the march and the slices on OpenGL: no data then pass through the host.
+    /// True for the march and the slices on OpenGL: no data pass through the host then.
     [[nodiscard]] bool takesTextures() const { return renderer_->takesTextures(); }
 
-    /// Shows the grid uploaded last elsewhere, with this share of its extinction. Light within it stays as it was.
+    /// Draws the grid uploaded last in another position and with this share of its extinction. Its light is unchanged.
     void change(const glm::dvec3& originMetres, float thickness);
 
     /// Draws the grid uploaded last; may be called repeatedly.

@@ -21,7 +21,7 @@ SceneDepths SceneDepthCopy::depths() {
 }
 
 void GridRenderer::take(const ShownTextures&, const BricksOnGpu&, const LightOnGpu*) {
-    throw std::logic_error("a renderer that takes no textures was given some");
+    throw std::logic_error("this renderer does not take textures");
 }
 
 std::unique_ptr<GridRenderer> makeGridRenderer(gpu::Device& device, const RaycastSettings& settings,

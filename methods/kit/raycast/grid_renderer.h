@@ -29,10 +29,10 @@ namespace dustbench::raycast {
 struct GridPlace {
     ShownGrid grid;  ///< position and size only, no values
     glm::ivec3 minimum{0}, maximum{0};
-    float thickness = 1;  ///< share of the extinction that its densities have now
+    float thickness = 1;  ///< current share of the extinction of its densities
 };
 
-/// The scene's depths of a layer on the CPU, read back when first asked for: all grids of a picture share them.
+/// The scene's depths of a layer on the CPU, read back on first use and shared by all grids of a picture.
 class DUSTBENCH_API SceneDepthCopy {
  public:
     explicit SceneDepthCopy(const gpu::Layer& layer) : layer_(layer) {}
@@ -43,7 +43,7 @@ class DUSTBENCH_API SceneDepthCopy {
     std::vector<float> values_;
 };
 
-/// Makes something for another grid of the same picture.
+/// Selects the constructor for another grid of the same picture.
 struct Beside {};
 
 class GridRenderer {
@@ -61,7 +61,7 @@ class GridRenderer {
     virtual std::int64_t draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer,
                               SceneDepthCopy& sceneDepth) = 0;
 
-    /// Another of the same kind, for another grid of the same picture: both share their programs.
+    /// Creates a renderer of the same kind for another grid of the same picture; the two share their programs.
     [[nodiscard]] virtual std::unique_ptr<GridRenderer> another() const = 0;
 
     [[nodiscard]] virtual std::size_t gpuBytes() const = 0;

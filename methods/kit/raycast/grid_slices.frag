@@ -2,7 +2,7 @@
 //
 //     α = 1 − e^(−σ·Δ)
 //
-// The slab that the scene cuts contributes its part before the scene. Source: Senger2009, ch. 2.
+// A slab cut by the scene contributes its part in front of the scene. Source: Senger2009, ch. 2.
 layout(binding = 0) uniform sampler2D sceneDepth;
 uniform vec3 eye;
 uniform vec3 rayCorner, rayRight, rayUp;  // the ray through the image's corner, and its change per pixel

@@ -14,7 +14,7 @@
 namespace dustbench::raycast {
 namespace {
 
-/// Cell middles as points, in units of cells, surrounded by a layer of zeros.
+/// Cell centres as points, in units of cells, surrounded by a layer of zeros.
 void fill(vtkImageData& image, const ShownGrid& grid) {
     const glm::ivec3 size = grid.cells + 2;
     image.SetDimensions(size.x, size.y, size.z);

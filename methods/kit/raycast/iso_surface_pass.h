@@ -19,7 +19,7 @@ class IsoSurfacePass final : public GridRenderer {
     IsoSurfacePass(Beside, const IsoSurfacePass& sibling);
 
     void upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light) override;
-    /// The surface is that of the densities as they were uploaded, whatever the place's thickness.
+    /// Uses the surface of the densities as uploaded, independent of the place's thickness.
     std::int64_t draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer,
                       SceneDepthCopy& sceneDepth) override;
     [[nodiscard]] std::unique_ptr<GridRenderer> another() const override;
@@ -30,7 +30,7 @@ class IsoSurfacePass final : public GridRenderer {
     }
 
  private:
-    /// What siblings share.
+    /// Resources shared by siblings.
     struct Shared {
         explicit Shared(gpu::Device& device);
         gpu::Program surface, composite;

@@ -1,4 +1,4 @@
-// Fraction of the sun's light that reaches each texel: e^(-D), by steps of a texel's edge from the texel's middle to
+// Fraction of the sun's light that reaches each texel: e^(-D), in steps of a texel's edge from the texel's centre to
 // the point where the ray to the sun leaves the grid. See light_volume.h.
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 layout(binding = 0, r32f) restrict writeonly uniform image3D light;
@@ -12,7 +12,7 @@ const float darkDepth = 8.0;  // at most 0.03 % of the light remains
 void main() {
     ivec3 texel = ivec3(gl_GlobalInvocationID), texels = imageSize(light);
     if (any(greaterThanEqual(texel, texels))) return;
-    // Middles of texels; for texels that extend beyond the grid, clamped to its end.
+    // Centres of texels; for texels that extend beyond the grid, clamped to its end.
     vec3 from = min(vec3(texel) + 0.5, end);
     float reach = 1e9;
     for (int axis = 0; axis < 3; ++axis)

@@ -44,7 +44,7 @@ void LightVolume::set(const ShownGrid& grid, const std::function<void(std::span<
     light_.set(texels, values_);
 }
 
-/// By what is found at every fourth texel, and linear between.
+/// Scales the light by `arriving`, evaluated at every fourth texel and interpolated linearly.
 void LightVolume::dim(const ShownGrid& grid, const std::function<float(const glm::dvec3&)>& arriving) {
     constexpr int apart = 4;
     const glm::ivec3 texels = paddedDensity_.cells(), nodes = (texels - 1) / apart + 2;
@@ -56,7 +56,7 @@ void LightVolume::dim(const ShownGrid& grid, const std::function<float(const glm
         for (std::size_t n = first; n < first + count; ++n) {
             const int i = static_cast<int>(n);
             const glm::ivec3 node(i % nodes.x, i / nodes.x % nodes.y, i / nodes.x / nodes.y);
-            // Not beyond the grid: what lies between its end and there would count for neither.
+            // Not beyond the grid: otherwise the stretch between its end and the texel would be missing.
             const glm::dvec3 cell =
                 glm::min((glm::dvec3(node * apart) + 0.5) * static_cast<double>(texelCells_), glm::dvec3(grid.cells));
             found[n] = arriving(grid.originMetres + grid.spacingMetres * cell);
@@ -103,7 +103,7 @@ void LightVolume::average(const ShownGrid& grid, const glm::ivec3& texels) {
     });
 }
 
-/// Marches sixteen texels at a time, by steps of a texel's edge from each texel's middle to the point where the ray to
+/// Marches sixteen texels at a time, in steps of a texel's edge from each texel's centre to the point where the ray to
 /// the sun leaves the grid.
 void LightVolume::marchRow(const ShownGrid& grid, int y, int z) {
     const glm::ivec3 texels = paddedDensity_.cells();
@@ -114,7 +114,7 @@ void LightVolume::marchRow(const ShownGrid& grid, int y, int z) {
     for (int x = 0; x < texels.x; x += laneCount) {
         Floats column;
         for (int lane = 0; lane < laneCount; ++lane) column[lane] = static_cast<float>(x + lane);
-        // Middles of texels; for texels that extend beyond the grid, clamped to its end.
+        // Centres of texels; for texels that extend beyond the grid, clamped to its end.
         const Floats from[3] = {atMost(column + 0.5f, all(end.x)), all(std::min(static_cast<float>(y) + 0.5f, end.y)),
                                 all(std::min(static_cast<float>(z) + 0.5f, end.z))};
         Floats length = all(1e9f);

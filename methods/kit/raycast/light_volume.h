@@ -1,6 +1,6 @@
 // Computes the fraction of the sun's light that arrives at each texel of a grid coarser than the one shown.
 //
-// Each texel holds e^(−D) at its middle, where D is the optical depth from there towards the sun.
+// Each texel contains e^(−D) at its centre, where D is the optical depth from there towards the sun.
 // Units: cells of the shown grid. Owns: its memory, booked on a ledger. Threads: set() runs in parallel.
 // Source: Fedkiw2001; Senger2009 refers to it for light and shadow.
 #pragma once
@@ -21,7 +21,7 @@ namespace dustbench::raycast {
 struct Reflected {
     glm::vec3 ambient{0}, sun{0};
     glm::vec3 toSun{0, 1, 0};  ///< unit vector, world
-    float asymmetry = 0;       ///< of scene::phaseFactor; 0: as much to all sides
+    float asymmetry = 0;       ///< of scene::phaseFactor; 0: isotropic
     [[nodiscard]] glm::vec3 all() const { return ambient + sun; }
     /// Factor of `sun` for a ray of this direction from the eye, a unit vector.
     [[nodiscard]] float phase(const glm::vec3& along) const {
@@ -34,16 +34,16 @@ class DUSTBENCH_API LightVolume {
     /// `toSun`: unit vector in world coordinates.
     LightVolume(const RaycastSettings& settings, const glm::vec3& toSun, MemoryLedger& ledger);
 
-    /// `arriving`: share of the sun's light that gets to a place in the world through all that lies outside of this
-    /// grid; it varies slowly. Empty: all of it. It is called from several threads.
+    /// `arriving`: share of the sun's light that reaches a point in the world through everything outside of this grid.
+    /// It must vary slowly. Empty: all light arrives. Called from several threads.
     void set(const ShownGrid& grid, const std::function<float(const glm::dvec3&)>& arriving = {});
 
-    /// The same where the grid's cells are elsewhere: `average` fills in the mean of each texel's densities, in which
-    /// that of a cell is multiplied by its fire's extinction factor, x fastest.
+    /// The same if the grid's cells are stored elsewhere: `average` fills in the mean density of each texel, x fastest;
+    /// the density of a cell is multiplied by its fire's extinction factor.
     void set(const ShownGrid& place, const std::function<void(std::span<float>)>& average,
              const std::function<float(const glm::dvec3&)>& arriving = {});
 
-    /// Texels of a grid of so many cells.
+    /// Number of texels of a grid with this many cells.
     [[nodiscard]] glm::ivec3 texelsOf(const glm::ivec3& cells) const { return (cells + texelCells_ - 1) / texelCells_; }
     /// Cells along a texel's edge.
     [[nodiscard]] int texelCells() const { return texelCells_; }

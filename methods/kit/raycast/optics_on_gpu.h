@@ -1,4 +1,4 @@
-// What the shaders that use grid_optics.glsl read besides the densities of a grid: fire's table, light, colours.
+// Inputs of the shaders that use grid_optics.glsl other than densities: fire's table, light, colours.
 //
 // Owns: its textures. Threads: the OpenGL thread.
 #pragma once
@@ -19,9 +19,9 @@ class DUSTBENCH_API OpticsOnGpu {
  public:
     OpticsOnGpu(gpu::Device& device, const RaycastSettings& settings) : device_(device), settings_(settings) {}
 
-    /// A grid of cells of this edge, shown from now on. `light`: null if the cloud casts no shadow on itself.
+    /// Selects a grid with this cell edge. `light`: null if the cloud casts no shadow on itself.
     void set(double spacingMetres, bool burning, const LightVolume* light);
-    /// The same with a light that is on the GPU already.
+    /// The same with light that is already on the GPU.
     void take(double spacingMetres, bool burning, const LightOnGpu* light);
 
     [[nodiscard]] bool burning() const { return burning_; }
@@ -41,7 +41,7 @@ class DUSTBENCH_API OpticsOnGpu {
     bool burning_ = false;
 };
 
-/// The transfer function, and the definitions that shaders need for it.
+/// The transfer function as a texture, and the definitions that shaders need for it.
 [[nodiscard]] gpu::Texture makeFireTable(gpu::Device& device, const RaycastSettings& settings);
 [[nodiscard]] std::map<std::string, std::string> fireDefinitions();
 

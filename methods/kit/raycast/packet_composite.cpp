@@ -11,7 +11,7 @@
 namespace dustbench::raycast {
 namespace {
 
-/// In steps of an eighth of a power of two, so that a picture that grows and shrinks keeps its buffer.
+/// Rounds up to an eighth of a power of two, so that a picture that grows and shrinks keeps its buffer.
 std::size_t roomFor(std::size_t bytes) {
     constexpr std::size_t least = std::size_t{1} << 16;
     const std::size_t step = std::bit_floor(std::max(bytes, least)) / 8;

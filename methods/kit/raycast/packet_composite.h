@@ -19,8 +19,8 @@ class DUSTBENCH_API PacketComposite {
  public:
     explicit PacketComposite(gpu::Device& device)
         : device_(device), vertices_(device), programs_(std::make_shared<Programs>()) {}
-    /// For another picture of the same frame: both share their programs. Memory is not shared, since the CPU writes to
-    /// one while OpenGL still reads the other.
+    /// For another picture of the same frame: the two share their programs. They do not share memory, since the CPU
+    /// writes to one while OpenGL still reads the other.
     PacketComposite(Beside, const PacketComposite& sibling)
         : device_(sibling.device_), vertices_(device_), programs_(sibling.programs_) {}
 

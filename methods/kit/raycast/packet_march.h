@@ -1,12 +1,12 @@
-// The march of sixteen rays at a time through a medium, whatever holds its densities.
+// The march of sixteen rays at a time through a medium; a template parameter provides the densities.
 //
 //     D ← D + σ·Δ,   T = e^(−D),   C ← C + (T before − T after)·(reflected + emission)
 //
-// A `Probe` is made for each packet and says what the rays see. It has
-//     Floats density(const Reach&), Floats reaction(const Reach&)    at the steps' middles
-//     int clearChunks(float begin, float nearest, float farthest)    chunks from the step at `begin` on in which there
-//     is
-//         nothing; 0 if something may lie between the distances nearest and farthest, which cover the first of them
+// A `Probe` is made for each packet and provides the medium along its rays:
+//     Floats density(const Reach&), Floats reaction(const Reach&)    values at the steps' middles
+//     int clearChunks(float begin, float nearest, float farthest)    number of empty chunks from the step at `begin`
+//         on; 0 if the range of distances nearest to farthest, which covers the first of them, may not be
+//         empty
 // Units: cells; positions are relative to the grid's minimum corner. Internal to marches on the CPU.
 // Threads: marchPackets() runs in parallel. Source: Senger2009, ch. 4.
 #pragma once
@@ -77,11 +77,11 @@ struct Field {
     return sampleAnywhere(field.cells, placesOf(rays, reach.middle, Four{}, perCell));
 }
 
-/// What a march needs to know of a medium besides its densities.
+/// Inputs of a march other than densities.
 struct Medium {
     glm::ivec3 cells;             ///< of the box in which steps are taken
-    bool skipsEmpty = true;       ///< whether chunks are left out in which there is nothing
-    glm::ivec3 minimum, maximum;  ///< all that can be seen lies in [minimum, maximum)
+    bool skipsEmpty = true;       ///< skips empty chunks
+    glm::ivec3 minimum, maximum;  ///< everything visible is in [minimum, maximum)
     bool burning = false;
     std::optional<Field> light;  ///< empty: no shadow
     std::span<const glm::vec4> fire;
@@ -212,7 +212,7 @@ class PacketMarch {
     Probe& probe_;
     const RayPacket& rays_;
     float step_;
-    float opaque_;  ///< in the unit of `depth_`: without the extinction of a density of 1
+    float opaque_;  ///< in units of `depth_`, without the extinction of a density of 1
     Floats shift_;
     Floats phase_ = all(1);  ///< of each ray: Reflected::phase
     Floats from_, end_;      ///< of each ray, within the grid and before the scene

@@ -1,6 +1,6 @@
 // A grid's cells surrounded by copies of the outermost ones, so that samples near its faces need no special case.
 //
-// Units: cells; node (0, 0, 0) is the middle of the first cell. Owns: its memory, booked on a ledger.
+// Units: cells; node (0, 0, 0) is the centre of the first cell. Owns: its memory, booked on a ledger.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace dustbench::raycast {
 
 class PaddedCells {
  public:
-    /// Layers before the first and behind the last cell: as many as a window that begins in any cell can reach.
+    /// Layers before the first and behind the last cell, as far as a window that starts in any cell can reach.
     static constexpr int before = 1, behind = 3;
 
     explicit PaddedCells(MemoryAccount& account) : values_(account) {}

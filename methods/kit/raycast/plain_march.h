@@ -3,7 +3,7 @@
 //     D ← D + σ·Δ,   T = e^(−D),   C ← C + (T before − T after)·(reflected + emission)
 //
 // Steps begin at distances (k + jitter)·step from the eye. The first and the last step are cut to the part within the
-// grid and before the scene; each is sampled in its middle. Units: cells, relative to the grid's minimum corner.
+// grid and in front of the scene; each is sampled at its middle. Units: cells, relative to the grid's minimum corner.
 // Threads: pure.
 // Source: Senger2009, ch. 4.
 #pragma once
@@ -37,9 +37,9 @@ struct PlainRay {
 /// A step of the march.
 struct PlainStep {
     double depth = 0;      ///< optical
-    glm::dvec3 source{0};  ///< the colour that a thick cloud of its kind shows
+    glm::dvec3 source{0};  ///< the colour of a thick cloud of this medium
 };
-/// All steps of a ray, from front to back, however deep.
+/// All steps of a ray, from front to back, at any depth.
 [[nodiscard]] DUSTBENCH_API std::vector<PlainStep> plainSteps(const PlainVolume& volume, const PlainRay& ray);
 
 /// Offset of a pixel's steps as a fraction of a step, counted from the bottom left: the fractional part of x/g + y/g²,

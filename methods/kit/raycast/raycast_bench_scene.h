@@ -57,7 +57,7 @@ inline RaycastSettings benchSettings(Backend backend, bool skipEmpty) {
     return settings;
 }
 
-/// The reference picture: all others must match it within the tolerance of an early stop.
+/// The reference picture: all others must match it within the tolerance of early termination.
 inline const pictures::Image& checkedPicture(Shown shown = Shown::plume) {
     const auto made = [](Shown each) {
         MemoryLedger ledger;
@@ -81,7 +81,7 @@ void verifyPicture(benchmark::State& state, const AlphaAt& alphaAt, Shown shown 
         worst = std::max(worst, static_cast<double>(std::abs(alphaAt(i) - checked[i].a)));
         sum += static_cast<double>(alphaAt(i));
     }
-    if (worst > 0.01) throw std::logic_error("the picture is off by " + std::to_string(worst));
+    if (worst > 0.01) throw std::logic_error("the picture differs from the reference by " + std::to_string(worst));
     state.counters["worst"] = worst;
     state.counters["mean_alpha"] = sum / static_cast<double>(checked.size());
 }

@@ -6,23 +6,20 @@ namespace dustbench::raycast {
 
 void declareRaycast(ParameterSet& parameters) {
     parameters
-        .choice("backend", Backend::automatic, backends, "who casts the rays; auto: the CPU where OpenGL is software")
-        .choice(
-            "renderer", Renderer::raycast, renderers,
-            "a march along each pixel's ray; planes across the view; a Gaussian for each cell; or an opaque surface "
-            "of one density")
-        .real("iso_density", 0.5, 1e-6, 1e6, "", "of renderer=isosurface")
+        .choice("backend", Backend::automatic, backends, "where rays are cast; auto: on the CPU if OpenGL is software")
+        .choice("renderer", Renderer::raycast, renderers,
+                "marching along each pixel's ray; planes across the view; a Gaussian per cell; or an opaque surface at "
+                "one density")
+        .real("iso_density", 0.5, 1e-6, 1e6, "", "density of renderer=isosurface")
         .choice("filter", Filter::linear, filters,
-                "how cells are interpolated: not at all, each cell one value; between eight of them; or by a B-spline "
-                "of 64")
-        .real("step_cells", 0.5, 0.01, 8, "cells", "length of a ray's steps")
-        .boolean("jitter", true, "shift each pixel's steps by a share of one: noise instead of bands")
-        .real("stop_alpha", 0.99, 0, 1, "", "a ray ends where more than this is covered; 1: never")
-        .boolean("skip_empty", true, "leave out blocks of cells without density")
-        .integer(
-            "shadow_cells", -1, -1, 16, "cells",
-            "the sun's light falls off within the cloud, found in blocks of so many cells; 0: not; -1: as the file "
-            "says");
+                "interpolation of cells: none, one value per cell; linear between eight cells; or a cubic B-spline "
+                "over 64")
+        .real("step_cells", 0.5, 0.01, 8, "cells", "step length of a ray")
+        .boolean("jitter", true, "shift each pixel's steps by a fraction of a step: noise instead of bands")
+        .real("stop_alpha", 0.99, 0, 1, "", "alpha at which a ray ends; 1: never")
+        .boolean("skip_empty", true, "skip blocks of cells without density")
+        .integer("shadow_cells", -1, -1, 16, "cells",
+                 "edge of the blocks in which the cloud's own shadow is computed; 0: no shadow; -1: as in the file");
 }
 
 RaycastSettings raycastSettings(const ParameterValues& values, int shadowCells) {
@@ -41,7 +38,7 @@ RaycastSettings raycastSettings(const ParameterValues& values, int shadowCells) 
 }
 
 void lightDust(RaycastSettings& settings, const scene::Scene& scene) {
-    constexpr int blockCells = 2;  // where the file has no shadows
+    constexpr int blockCells = 2;  // if the file has no shadows
     if (settings.renderer == Renderer::splat)
         throw InputError("parameter renderer: got splat with light=sun, allowed: raycast, slices, isosurface");
     if (settings.shadowCells == 0) settings.shadowCells = blockCells;

@@ -1,4 +1,4 @@
-// The parameters of methods that show a grid: who casts the rays, by which technique, how finely.
+// The parameters of methods that draw a grid: processor, technique and resolution.
 #pragma once
 
 #include "methods/contract/parameters.h"
@@ -11,11 +11,11 @@ namespace dustbench::raycast {
 /// `shadow_cells`.
 DUSTBENCH_API void declareRaycast(ParameterSet& parameters);
 
-/// `shadowCells`: where the parameter says −1.
+/// `shadowCells`: used if the parameter is −1.
 [[nodiscard]] DUSTBENCH_API RaycastSettings raycastSettings(const ParameterValues& values, int shadowCells);
 
-/// Settings for dust that the scene's lights light (scene::Lights::onDust): it shadows itself. Throws InputError for a
-/// renderer that has no ray of which the phase function could be taken.
+/// Settings for dust lit by the scene's lights (scene::Lights::onDust): it shadows itself. Throws InputError for a
+/// renderer without rays, to which the phase function cannot be applied.
 DUSTBENCH_API void lightDust(RaycastSettings& settings, const scene::Scene& scene);
 
 }  // namespace dustbench::raycast

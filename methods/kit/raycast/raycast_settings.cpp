@@ -18,10 +18,10 @@ void checkRange(const char* name, double got, double minimum, double maximum) {
 
 void check(const RaycastSettings& settings) {
     if (settings.backend == Backend::cpu && settings.renderer != Renderer::raycast)
-        throw InputError("ray cast: got a backend of cpu, allowed for other renderers than raycast: automatic, gl");
+        throw InputError("ray cast: got backend cpu, allowed for renderers other than raycast: auto, gl");
     checkRange("step in cells", settings.stepCells, 0.01, 8);
-    checkRange("alpha to stop at", settings.stopAlpha, 0, 1);
-    checkRange("cells of a shadow", settings.shadowCells, 0, 64);
+    checkRange("stop alpha", settings.stopAlpha, 0, 1);
+    checkRange("shadow cells", settings.shadowCells, 0, 64);
     checkRange("extinction per metre", settings.extinctionPerMetre, 0, 1e6);
     checkRange("density of the isosurface", settings.isoDensity, 1e-6, 1e6);
     for (int channel = 0; channel < 3; ++channel)

@@ -28,7 +28,7 @@ inline constexpr Choices<Renderer> renderers{{"raycast", Renderer::raycast},
                                              {"splat", Renderer::splat},
                                              {"isosurface", Renderer::isosurface}};
 
-/// Interpolation between cell middles; constant beyond the outermost ones.
+/// Interpolation between cell centres; constant beyond the outermost ones.
 enum class Filter {
     nearest,  ///< none: each cell has one value, so that cells show as blocks
     linear,
@@ -46,7 +46,7 @@ struct RaycastSettings {
     double stopAlpha = 0.99;  ///< a ray ends when its alpha exceeds this; 1: never
     bool skipEmpty = true;    ///< skips bricks of cells without density
     int shadowCells = 0;      ///< block size in cells for self-shadowing of the sun's light; 0: no shadow
-    /// Of scene::phaseFactor, for self-shadowed sunlight drawn by rays or planes; 0: to all sides alike.
+    /// For scene::phaseFactor, with self-shadowed sunlight drawn by rays or planes; 0: isotropic.
     float asymmetry = 0;
     double extinctionPerMetre = 1;               ///< at a density of 1
     double isoDensity = 0.5;                     ///< of the isosurface

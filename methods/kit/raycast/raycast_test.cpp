@@ -61,7 +61,7 @@ TEST(GridRaycast, ShowsTheSameOnCpuAndGpu) {
                 const pictures::Image image = canvas.picture(grid, settings);
                 settings.backend = Backend::gl;
                 const pictures::Image onGpu = canvas.picture(grid, settings);
-                // Floats differ in the cell of a sample on the border of two.
+                // For a sample on the border of two cells, floats may find the other cell.
                 if (filter == Filter::nearest)
                     EXPECT_LT(pixelsApart(image, onGpu, 2e-4), 0.005 * 96 * 72) << eye.x << burning;
                 else
@@ -151,7 +151,7 @@ TEST_P(GridRaycastOn, EqualsThePlainMarch) {
         const PlainVolume volume{grid.shown(), settings,
                                  cloudColour(settings.smokeColour, canvas.lights, settings.asymmetry), light.values()};
         const glm::dvec3 forward = glm::normalize(forwardTo - eye), inCells = (eye - grid.originMetres) / 0.3;
-        int apart = 0;  // pixels with a sample on the border of two cells, of which floats find the other one
+        int apart = 0;  // pixels with a sample on the border of two cells, where floats find the other one
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x) {
                 const glm::dvec3 along = glm::normalize(glm::dvec3(canvas.view.rayDirection(x + 0.5, y + 0.5)));

@@ -65,7 +65,7 @@ inline double maximumDifference(const pictures::Image& a, const pictures::Image&
     return maximum;
 }
 
-/// Number of pixels that differ by more in any channel.
+/// Number of pixels that differ by more than `tolerance` in any channel.
 inline int pixelsApart(const pictures::Image& a, const pictures::Image& b, double tolerance) {
     int apart = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {

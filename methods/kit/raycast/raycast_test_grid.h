@@ -13,7 +13,7 @@
 namespace dustbench::raycast {
 
 struct TestGrid {
-    /// `densityAt` takes the middle of a cell, in metres.
+    /// `densityAt` takes the centre of a cell, in metres.
     TestGrid(glm::ivec3 size, double spacing, glm::dvec3 origin, const std::function<double(glm::dvec3)>& densityAt)
         : cells(size), spacingMetres(spacing), originMetres(origin) {
         for (int z = 0; z < size.z; ++z)

@@ -1,4 +1,4 @@
-// A picture of several grids, and a grid that is shown again elsewhere and thinner.
+// Tests a picture of several grids, and a grid that is shown again in another position and thinner.
 #include <gtest/gtest.h>
 
 #include "methods/kit/raycast/raycast_test_canvas.h"
@@ -6,8 +6,8 @@
 namespace dustbench::raycast {
 namespace {
 
-/// The cells of `grid` from `first` on, `cells` of them, with a layer of empty cells around; beyond the grid, empty
-/// too.
+/// `cells` cells of `grid` from `first` on, with a layer of empty cells around them; cells beyond the grid are also
+/// empty.
 TestGrid partOf(const TestGrid& grid, const glm::ivec3& first, const glm::ivec3& cells, int rim) {
     TestGrid part(cells + 2 * rim, grid.spacingMetres, grid.originMetres + grid.spacingMetres * glm::dvec3(first - rim),
                   [](const glm::dvec3&) { return 0.0; });
@@ -51,7 +51,7 @@ TEST(SeveralGrids, WithEmptyRimsShowWhatOneGridShows) {
                     });
                     const pictures::Image expected = canvas.picture(whole, settings);
                     EXPECT_GT(meanAlpha(expected), 0.02);
-                    // Splats of one picture are in order, those of two grids are not, which an equal colour forgives.
+                    // Splats of one picture are sorted, those of two grids are not; equal colours hide the difference.
                     EXPECT_LT(maximumDifference(image, expected), 4e-3)
                         << static_cast<int>(renderer) << " filter " << static_cast<int>(filter) << " eye " << eye.x;
                 }

@@ -9,7 +9,7 @@
 namespace dustbench::raycast {
 namespace {
 
-constexpr int maximumCells = 2048;  // texels per axis of a 3D texture that every OpenGL 4.5 supports
+constexpr int maximumCells = 2048;  // texels per axis of a 3D texture, guaranteed by OpenGL 4.5
 
 void checkShown(const char* name, std::size_t got, std::size_t allowed) {
     if (got != allowed)
@@ -24,7 +24,7 @@ void checkPlace(const Grid& grid) {
             throw InputError("shown grid: got " + std::to_string(grid.cells[axis]) +
                              " cells along an axis, allowed: 1.." + std::to_string(maximumCells));
         if (!std::isfinite(grid.originMetres[axis]))
-            throw InputError("shown grid: got an origin that is not a number, allowed: a place in metres");
+            throw InputError("shown grid: got an origin that is not a number, allowed: a position in metres");
     }
     if (!(grid.spacingMetres > 0) || !std::isfinite(grid.spacingMetres))
         throw InputError("shown grid: got a spacing of " + std::to_string(grid.spacingMetres) +

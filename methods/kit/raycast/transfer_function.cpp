@@ -22,7 +22,7 @@ void checkRow(const std::vector<TransferFunction::Row>& rows, std::size_t i, con
         throw InputError(place(where, i) + "got a reaction of " + std::to_string(row.reaction) + ", allowed: 0..1");
     if (i > 0 && !(row.reaction > rows[i - 1].reaction))
         throw InputError(place(where, i) + "got a reaction of " + std::to_string(row.reaction) +
-                         ", allowed: more than the row before it (" + std::to_string(rows[i - 1].reaction) + ")");
+                         ", allowed: more than in the previous row (" + std::to_string(rows[i - 1].reaction) + ")");
     for (int channel = 0; channel < 3; ++channel)
         if (!(row.emission[channel] >= 0 && static_cast<double>(row.emission[channel]) <= maximumEmission))
             throw InputError(place(where, i) + "got an emission of " + std::to_string(row.emission[channel]) +

@@ -13,8 +13,8 @@
 
 namespace dustbench {
 
-/// Runs the script with Debian's own interpreter and returns its output. A non-zero exit (including a missing module)
-/// is a test failure that shows the error output.
+/// Runs the script with the system's Python interpreter and returns its output. A non-zero exit (including a missing
+/// module) is a test failure that shows the error output.
 inline std::string python(const TestFolder& folder, const std::string& script, const std::filesystem::path& argument) {
     const auto file = folder.write("script.py", script);
     const auto said = folder.path() / "said", complained = folder.path() / "complained";

@@ -12,7 +12,7 @@
 
 namespace dustbench {
 
-/// Owns: the folder and what is in it.
+/// Owns: the folder and its contents.
 class TestFolder {
  public:
     TestFolder() {

@@ -1,4 +1,4 @@
-// One frame of dust before an eye, for tests and benchmarks of whole methods.
+// One frame of dust in front of an eye, for tests and benchmarks of whole methods.
 //
 // Owns: the dust, and what draw/test_canvas.h owns. The test fills in the dust.
 #pragma once

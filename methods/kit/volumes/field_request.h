@@ -1,4 +1,4 @@
-// Which fields of a file are wanted, under which names: of a program's settings, or the usual ones.
+// The fields wanted from a file, by the names from a program's settings or by default names.
 #pragma once
 
 #include <algorithm>
@@ -16,9 +16,9 @@ namespace dustbench::volumes {
 struct WantedField {
     std::string_view what;  ///< for messages
     int components = 1;
-    std::vector<std::string> names;  ///< any of them is it
+    std::vector<std::string> names;  ///< any of them matches
     bool isRequired = false;
-    bool takesOnlyOne = false;  ///< if there is none of these names but just one field of so many components
+    bool takesOnlyOne = false;  ///< accepts the only field with this many components if no name matches
 };
 
 /// Density, temperature and velocity, in this order.
@@ -34,7 +34,7 @@ struct WantedField {
          {"velocity", 3, or_(fields.velocity, {"velocity", "Velocity", "vel", "v"}), !fields.velocity.empty(), false}}};
 }
 
-/// Cells that the box of the density may have, and the reason to refuse more.
+/// The maximum number of cells in the density's box, and the message if there are more.
 [[nodiscard]] inline std::int64_t maximumCells(const VolumeFields& fields) {
     return fields.isSparse ? files::limits::sparseVolumeCells : files::limits::volumeCells;
 }
@@ -43,7 +43,7 @@ struct WantedField {
            (fields.isSparse ? "2 billion cells (limit of sparse volumes)" : "256 million cells (limit of volumes)");
 }
 
-/// As one text, for the arguments of a program; and back.
+/// Converts to one text for the arguments of a program, and back.
 [[nodiscard]] inline std::string textOf(const VolumeFields& fields) {
     return fields.density + '\x1f' + fields.temperature + '\x1f' + fields.velocity + '\x1f' +
            (fields.wantsTemperature ? "1" : "") + '\x1f' + (fields.isSparse ? "1" : "");
@@ -65,11 +65,11 @@ struct WantedField {
 /// A field of a file.
 struct PresentField {
     std::string name;
-    int components = 1;  ///< 0: its numbers are not read
-    std::string kind;    ///< for messages, what tells it from others: `at points`, `int32`
+    int components = 1;  ///< 0: not read
+    std::string kind;    ///< distinguishes it in messages: `at points`, `int32`
 };
 
-/// The fields that are none of those chosen, as `grid 'heat'`, or with their kinds `grid 'heat' (grid 2 of float)`.
+/// The fields that were not chosen, as `grid 'heat'`, or with their kinds `grid 'heat' (grid 2 of float)`.
 [[nodiscard]] inline std::vector<std::string> restOf(std::span<const PresentField> present,
                                                      std::span<const std::size_t> chosen) {
     std::vector<std::string> rest;
@@ -82,12 +82,12 @@ struct PresentField {
     return rest;
 }
 
-/// What VTK and VisIt keep for themselves, as ghosts: never a field of the volume.
+/// Arrays that VTK and VisIt use internally, such as ghosts; never a field of the volume.
 [[nodiscard]] inline bool isBookkeeping(std::string_view name) {
     return name.starts_with("vtk") || name.starts_with("avtGhost");
 }
 
-/// The fields as text, at most ten of them; those of one name with their kinds.
+/// The fields as text, at most ten of them; fields with the same name are listed with their kinds.
 [[nodiscard]] inline std::string listOf(std::span<const PresentField> fields) {
     std::string list;
     for (const PresentField& field : fields.first(std::min<std::size_t>(fields.size(), 10))) {
@@ -97,8 +97,8 @@ struct PresentField {
     return fields.size() > 10 ? list + " and " + std::to_string(fields.size() - 10) + " others" : list;
 }
 
-/// The place of the wanted field among `present`: the only one of these names and components, wherever it lies; −1 if
-/// there is none and it need not be there. Throws `Refusal` with a clause otherwise.
+/// Index of the wanted field in `present`: the only one with one of these names and the right components, at cells or
+/// points; −1 if there is none and it is optional. Otherwise throws `Refusal` with a clause.
 template <typename Refusal>
 [[nodiscard]] int chosenField(const WantedField& wanted, std::span<const PresentField> present) {
     std::vector<int> places;
@@ -127,8 +127,8 @@ template <typename Refusal>
     if (!wanted.isRequired) return -1;
     const std::string reason = "it has no field of " + numbers + " '" + wanted.names.front() + "'";
     if (!others.empty())
-        throw Refusal{reason + "; '" + others[0].name + "' (" + others[0].kind + ") does not hold " +
-                      (wanted.components == 3 ? "vectors of floats" : "one floating-point number a cell")};
+        throw Refusal{reason + "; '" + others[0].name + "' (" + others[0].kind + ") does not contain " +
+                      (wanted.components == 3 ? "vectors of floats" : "one floating-point number per cell")};
     throw Refusal{reason + (fitting.empty() ? "" : "; it has: " + listOf(fitting))};
 }
 

@@ -17,10 +17,10 @@ namespace dustbench::volumes {
 namespace fs = std::filesystem;
 namespace {
 
-/// The files that an index names are relative to it.
+/// File names in an index are relative to the index.
 SeriesEntry entryOf(const fs::path& index, const std::string& name, std::optional<double> time) {
     if (name.empty() || !time)
-        throw InputError(index.string() + ": an entry has no file or no time that is a number, expected both");
+        throw InputError(index.string() + ": an entry lacks a file or a numeric time, expected both");
     return {index.parent_path() / name, time};
 }
 
@@ -39,7 +39,7 @@ std::vector<SeriesEntry> readPvd(const fs::path& file) {
                 continue;
             }
             if (path.empty()) isCollection = tag->name == "VTKFile" && (*tag)["type"] == "Collection";
-            if (!isCollection) throw VolumeFault{"it is no collection"};
+            if (!isCollection) throw VolumeFault{"it is not a collection"};
             if (tag->name == "DataSet")
                 entries.push_back(entryOf(file, tag->text("file"), files::numberOf((*tag)["timestep"])));
             if (tag->kind == Tag::Kind::open) path.push_back(tag->name);

@@ -9,7 +9,7 @@
 namespace dustbench::volumes {
 namespace {
 
-constexpr double sameWithin = 1e-4;  ///< of a cell: grids that differ by less count as equal
+constexpr double sameWithin = 1e-4;  ///< of a cell: grids with a smaller difference count as equal
 constexpr double farthestCells = 5e8;
 
 /// Returns the offset of the second grid in cells of the first.
@@ -46,14 +46,14 @@ GridPlace together(const GridPlace& a, const GridPlace& b) {
 void requireGoesOn(const GridPlace& grid, const std::filesystem::path& name, const GridPlace* before,
                    const std::filesystem::path& beforeName, const GridPlace& first,
                    const std::filesystem::path& firstName, bool anyCells) {
-    if (!grid.timeSeconds) throw InputError(name.string() + ": has no time, which a file of a series needs");
+    if (!grid.timeSeconds) throw InputError(name.string() + ": has no time, but files of a series need one");
     if (before && !(*grid.timeSeconds > *before->timeSeconds))
-        throw InputError(fmt::format("{}: its time is {} s, expected one after {} s, that of {}", name.string(),
+        throw InputError(fmt::format("{}: its time is {} s, expected more than {} s, the time of {}", name.string(),
                                      *grid.timeSeconds, *before->timeSeconds, beforeName.filename().string()));
     const bool isSame = onOneLattice(first, grid) &&
                         (anyCells || (first.cells == grid.cells && firstCell(first, grid) == glm::ivec3(0)));
     if (!isSame)
-        throw InputError(fmt::format("{}: lies on another grid than {}: got {}, expected {}", name.string(),
+        throw InputError(fmt::format("{}: is on a different grid from {}: got {}, expected {}", name.string(),
                                      firstName.filename().string(), describe(grid), describe(first)));
 }
 

@@ -1,4 +1,4 @@
-// Where the cubic cells of a file's grid lie, and when: what grids of a series must have in common.
+// Position and time of a grid in a file, and the conditions for grids of one series.
 //
 // Units and frame: the file's own.
 #pragma once
@@ -18,7 +18,7 @@ struct GridPlace {
     glm::dvec3 origin{0};  ///< minimum corner of the first cell
     double spacing = 0;    ///< edge of a cell
     std::optional<double> timeSeconds;
-    bool sparse = false;  ///< cells beyond it are zero, not unknown
+    bool sparse = false;  ///< cells outside are zero, not unknown
 
     [[nodiscard]] std::size_t cellCount() const {
         return static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y) *
@@ -32,24 +32,24 @@ struct GridPlace {
     }
 };
 
-/// More than an index can count, maybe.
+/// May exceed the range of integers.
 [[nodiscard]] inline double cellsOf(const GridPlace& place) {
     return static_cast<double>(place.cells.x) * static_cast<double>(place.cells.y) * static_cast<double>(place.cells.z);
 }
 
-/// The first cell of `grid` on the lattice of `lead`. Both must lie on one lattice.
+/// The first cell of `grid` on the lattice of `lead`. Both must be on the same lattice.
 [[nodiscard]] DUSTBENCH_API glm::ivec3 firstCell(const GridPlace& lead, const GridPlace& grid);
-/// The cells that both cover together, on one lattice.
+/// The box of cells that covers both, on the same lattice.
 [[nodiscard]] DUSTBENCH_API GridPlace together(const GridPlace& a, const GridPlace& b);
 
-/// Throws InputError unless `grid`, of the file `name`, goes on a series after `before`: later in time, and on the
-/// lattice of `first`, whose file is `firstName`; unless `anyCells` with just its cells.
+/// Throws InputError unless `grid`, of the file `name`, continues a series after `before`: later in time, and on the
+/// lattice of `first`, whose file is `firstName`; without `anyCells` also with exactly the same cells.
 void requireGoesOn(const GridPlace& grid, const std::filesystem::path& name, const GridPlace* before,
                    const std::filesystem::path& beforeName, const GridPlace& first,
                    const std::filesystem::path& firstName, bool anyCells);
 
-/// Calls take(first index within `inner`, first index within `outer`, count) for each row of `inner`, which lies within
-/// `outer`.
+/// Calls take(first index within `inner`, first index within `outer`, count) for each row of `inner`, which must be
+/// inside of `outer`.
 template <typename Take>
 void forEachRow(const GridPlace& inner, const GridPlace& outer, const Take& take) {
     const glm::ivec3 first = firstCell(outer, inner);

@@ -1,4 +1,4 @@
-// Volumes that NanoVDB's own functions made and wrote. Apart from volume_file_test.cpp, for its headers are slow.
+// Tests volumes made and written by NanoVDB's own functions. Separate from volume_file_test.cpp, due to slow headers.
 #define NANOVDB_USE_ZIP
 #define NANOVDB_USE_BLOSC
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ namespace {
 using nanovdb::io::Codec;
 using testing::HasSubstr;
 
-/// A sphere of NanoVDB's, of fog; `Build` is how its numbers are stored.
+/// A fog sphere from NanoVDB; `Build` is the storage type of its numbers.
 template <typename Build>
 auto nanoFog() {
     return nanovdb::createFogVolumeSphere<float, Build>(/*radius=*/2, nanovdb::Vec3f(1, 2, 3), /*voxelSize=*/0.125);
@@ -28,7 +28,7 @@ std::string writtenNano(const TestFolder& folder, const Handle& handle, Codec co
     return path;
 }
 
-/// Keeps what is streamed.
+/// Keeps the streamed values.
 struct Kept final : VolumeSink {
     void begin(const GridPlace& at) override { place = at; }
     bool beginField(std::string_view field) override { return field == "density"; }
@@ -64,7 +64,7 @@ void expectRead(const TestFolder& folder, Codec codec) {
                 ASSERT_EQ(read.density[read.indexOf({x, y, z})], value);
                 sum += static_cast<double>(value);
             }
-    // All of the ball is within: its volume, less the slope of its rim.
+    // The whole ball is inside: its volume, minus the slope of its rim.
     expected = 4.0 / 3 * 3.14159265 * 8;
     EXPECT_NEAR(sum * 0.125 * 0.125 * 0.125, expected, 0.35 * expected);
 }
@@ -96,7 +96,7 @@ TEST(NanoVolume, PartsOfAFileAreRefused) {
     const std::string whole(std::istreambuf_iterator<char>(stream), {});
     for (std::size_t part = 0; part < 8; ++part) {
         const auto cut = folder.write("cut.nvdb", whole.substr(0, whole.size() * part / 8));
-        EXPECT_THAT(inputError([&] { (void)readVolume(cut, {}); }), HasSubstr("cut.nvdb: not a whole file of NanoVDB"));
+        EXPECT_THAT(inputError([&] { (void)readVolume(cut, {}); }), HasSubstr("cut.nvdb: not a complete NanoVDB file"));
     }
 }
 

@@ -28,8 +28,7 @@ SeriesPlaces::SeriesPlaces(std::vector<GridPlace> places, const std::vector<std:
         std::ranges::none_of(places_, [](const GridPlace& place) { return place.timeSeconds.has_value(); });
     if (const std::string uneven = secondsPerFile && haveNone ? files::unevenStep(names) : ""; !uneven.empty())
         throw InputError(
-            fmt::format("{}: {}; expected even steps where seconds_per_file gives the times, else a .pvd or "
-                        ".series that says them",
+            fmt::format("{}: {}; expected even steps for seconds_per_file, or a .pvd or .series with the times",
                         names.front().parent_path().string(), uneven));
     if (secondsPerFile && haveNone)
         for (std::size_t i = 0; i < places_.size(); ++i)
@@ -38,14 +37,14 @@ SeriesPlaces::SeriesPlaces(std::vector<GridPlace> places, const std::vector<std:
     for (std::size_t i = 0; i < places_.size(); ++i) {
         if (!places_[i].timeSeconds)
             throw InputError(names[i].string() +
-                             ": has no time, expected TimeValue (.vti), time_s (.vdb), a .pvd or .series that says "
-                             "it, or seconds_per_file in a .toml");
+                             ": has no time, expected TimeValue (.vti), time_s (.vdb), a .pvd or .series with "
+                             "times, or seconds_per_file in a .toml");
         const std::size_t before = i > 0 ? i - 1 : 0;
         requireGoesOn(places_[i], names[i], i > 0 ? &places_[before] : nullptr, names[before], places_[0], names[0],
                       /*anyCells=*/true);
         if (cellsOf(together(places_[before], places_[i])) > static_cast<double>(maximumCells))
-            throw InputError(fmt::format("{}: with {} it has more than {} cells (limit of volumes)", names[i].string(),
-                                         names[before].filename().string(), maximumCells));
+            throw InputError(fmt::format("{}: together with {} it has more than {} cells (limit of volumes)",
+                                         names[i].string(), names[before].filename().string(), maximumCells));
     }
 }
 

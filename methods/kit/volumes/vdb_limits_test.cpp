@@ -1,4 +1,5 @@
-// Small files of OpenVDB that would take much: a box of many cells, leaves that unpack to far more than the file.
+// Tests small OpenVDB files that would need much memory: a box of many cells, leaves that unpack to far more than the
+// file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
@@ -42,7 +43,7 @@ TEST(VdbLimits, LayersArriveInOrder) {
     openvdb::initialize();
     const TestFolder folder;
     const auto grid = openvdb::Vec3SGrid::create();
-    // From below zero, and no whole number of slabs.
+    // Starts below zero, and is not a whole number of slabs.
     for (int z = -5; z < 16; ++z)
         for (int x = 0; x < 3; ++x)
             grid->getAccessor().setValue({x, 0, z}, {0.5f + static_cast<float>(x), 0.25f, static_cast<float>(z)});
@@ -55,7 +56,7 @@ TEST(VdbLimits, LayersArriveInOrder) {
 }
 
 TEST(VdbLimits, ValuesThatAreAllAlikeAreNotTooMany) {
-    // Compressed best: of all that is valid, such leaves take most of memory for their bytes in the file.
+    // Compresses best: of all valid content, such leaves take the most memory for their bytes in the file.
     openvdb::initialize();
     const TestFolder folder;
     const auto grid = openvdb::Vec3SGrid::create();
@@ -65,7 +66,7 @@ TEST(VdbLimits, ValuesThatAreAllAlikeAreNotTooMany) {
     EXPECT_EQ(readVectors(file, "velocity").values.size(), 8'000'000u);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // under which memory has no limit
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // memory is not limited under them
 TEST(VdbLimits, FilesThatAskForGigabytesAreRefused) {
     // Ten kilobytes, found by mutation: reading them took 2.1 GB.
     const auto file = std::filesystem::path(DUSTBENCH_SOURCE_DIR) / "tests/fuzz/greedy_points.vdb";

@@ -1,7 +1,7 @@
-// What the program that reads a `.vdb` writes to its standard output: this header, then the reason why it reads
-// nothing, or the vectors, three floats a cell, x fastest. Of points, each column is a header and its numbers, as
-// doubles, point by point. Of a volume, each field is a header and its floats, cell by cell. What of the file is not
-// answered follows the first header, as lines.
+// The output of the program that reads a `.vdb`: this header, then the reason for a failure, or the vectors, three
+// floats per cell, x fastest. For points, each column is a header and its numbers as doubles, point by point. For a
+// volume, each field is a header and its floats, cell by cell. The ignored parts of the file follow the first header,
+// as lines.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,18 @@
 namespace dustbench::volumes {
 
 inline constexpr const char* vdbReaderName = "dustbench_vdb_reader";
-/// What its first argument is, or begins with: then names of fields follow (field_request.h).
+/// The first argument or its prefix; then names of fields follow (field_request.h).
 inline constexpr const char* pointsMode = "--points";
 inline constexpr const char* volumeMode = "--volume=";
-/// A reason that says what a file of OpenVDB is not.
+/// Reasons that name the missing content of an OpenVDB file.
 inline constexpr const char* noPoints = "it has no grid of points";
 
-/// Of the lines that name what is ignored.
+/// Maximum size of the lines that name ignored parts.
 inline constexpr std::int32_t maximumIgnoredBytes = 8'000;
 
-/// The reason where what reads ends in any other way than it should.
+/// The reason if the reader ends unexpectedly.
 [[nodiscard]] inline const char* notWholeOf(std::string_view file) {
-    return file.ends_with(".nvdb") ? "not a whole file of NanoVDB" : "not a whole file of OpenVDB";
+    return file.ends_with(".nvdb") ? "not a complete NanoVDB file" : "not a complete OpenVDB file";
 }
 
 struct VdbMessage {

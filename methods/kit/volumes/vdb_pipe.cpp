@@ -22,7 +22,7 @@ bool VdbPipe::ended() {
     if (process_ < 0) return false;
     char more = 0;
     const bool isAtEnd = !read(&more, 1);
-    close(output_);  // what it would still write ends it
+    close(output_);  // ends the process if it still writes
     int status = 0;
     while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
     }

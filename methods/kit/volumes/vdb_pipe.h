@@ -1,4 +1,4 @@
-// A process that reads a `.vdb`, and what it says (vdb_message.h).
+// A process that reads a `.vdb`, and its output (vdb_message.h).
 //
 // Threads: one at a time.
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace dustbench::volumes {
 
-/// Owns: the process and the end of its output.
+/// Owns: the process and our end of its output.
 class VdbPipe {
  public:
     VdbPipe(pid_t process, int output) : process_(process), output_(output) {}
@@ -21,7 +21,7 @@ class VdbPipe {
 
     /// False at the end of the output.
     [[nodiscard]] bool read(void* to, std::size_t bytes);
-    /// Whether it wrote nothing more and ended well. Waits for its end.
+    /// True if no output was left and it exited with success. Waits for its end.
     [[nodiscard]] bool ended();
 
  private:
@@ -29,7 +29,7 @@ class VdbPipe {
     int output_;
 };
 
-/// Starts dustbench_vdb_reader with these arguments; the one that is a file is relative to this process's folder.
+/// Starts dustbench_vdb_reader with these arguments; the one that names a file is relative to this process's folder.
 /// Throws std::runtime_error.
 [[nodiscard]] VdbPipe startVdbReader(const std::string& first, const std::string& second);
 

@@ -1,4 +1,4 @@
-// Files that OpenVDB's own functions wrote are read with all their points, wherever OpenVDB put them.
+// Tests that files written by OpenVDB's own functions are read with all their points, at any position.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
@@ -80,7 +80,7 @@ TEST(VdbPoints, WhatHasNoPointsOrIsCutIsRefused) {
     const std::string whole(std::istreambuf_iterator<char>(stream), {});
     for (std::size_t part = 1; part < 8; ++part) {
         const auto cut = folder.write("cut.vdb", whole.substr(0, whole.size() * part / 8));
-        EXPECT_THAT(inputError([&] { (void)readAll(cut); }), HasSubstr("cut.vdb: not a whole file of OpenVDB"));
+        EXPECT_THAT(inputError([&] { (void)readAll(cut); }), HasSubstr("cut.vdb: not a complete OpenVDB file"));
     }
     const std::string other = folder.path() / "other.vdb";
     openvdb::io::File(other).write({openvdb::FloatGrid::create()});

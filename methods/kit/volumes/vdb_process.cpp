@@ -14,7 +14,7 @@
 namespace dustbench::volumes {
 namespace {
 
-constexpr const char* notWhole = "not a whole file of OpenVDB";
+constexpr const char* notWhole = "not a complete OpenVDB file";
 constexpr std::uint64_t maximumReason = 1'000;
 constexpr std::int32_t maximumColumns = 1'000;
 
@@ -23,7 +23,7 @@ std::string readReason(VdbPipe& pipe, std::uint64_t bytes) {
     return pipe.read(reason.data(), reason.size()) ? reason : notWhole;
 }
 
-/// What the file holds besides: false if it does not arrive whole.
+/// Reads the list of ignored parts; false if it is incomplete.
 bool readIgnored(VdbPipe& pipe, const VdbMessage& message, std::vector<std::string>& ignored) {
     if (message.ignoredBytes < 0 || message.ignoredBytes > maximumIgnoredBytes) return false;
     std::string lines(static_cast<std::size_t>(message.ignoredBytes), ' ');
@@ -36,7 +36,7 @@ bool readIgnored(VdbPipe& pipe, const VdbMessage& message, std::vector<std::stri
     return true;
 }
 
-/// Memory grows with what arrives.
+/// Allocates memory as data arrive.
 template <typename Value>
 bool readValues(VdbPipe& pipe, std::size_t count, std::vector<Value>& values) {
     constexpr std::size_t atOnce = 1 << 20;
@@ -48,7 +48,7 @@ bool readValues(VdbPipe& pipe, std::size_t count, std::vector<Value>& values) {
     return true;
 }
 
-/// The reason why there are no points, or an empty text.
+/// The reason if there are no points; empty on success.
 std::string readTable(VdbPipe& pipe, const WantsColumn& wants, PointTable& table, std::vector<std::string>& ignored) {
     VdbMessage message;
     if (!pipe.read(&message, sizeof message)) return notWhole;
@@ -70,7 +70,7 @@ std::string readTable(VdbPipe& pipe, const WantsColumn& wants, PointTable& table
     return pipe.ended() ? "" : notWhole;
 }
 
-/// The reason why there is no grid, or an empty text.
+/// The reason if there is no grid; empty on success.
 std::string readPlace(VdbPipe& pipe, std::int64_t maximumCells, VdbMessage& message, GridPlace& place,
                       std::vector<std::string>& ignored) {
     if (!pipe.read(&message, sizeof message)) return notWhole;
@@ -87,7 +87,7 @@ std::string readPlace(VdbPipe& pipe, std::int64_t maximumCells, VdbMessage& mess
     return "";
 }
 
-/// The reason why there is no volume, or an empty text.
+/// The reason if there is no volume; empty on success.
 std::string readAnswer(const std::filesystem::path& file, const VolumeFields& fields, VolumeGrid& grid) {
     VdbPipe pipe = startVdbReader(volumeMode + textOf(fields), file);
     VdbMessage message;
@@ -108,7 +108,7 @@ std::string readAnswer(const std::filesystem::path& file, const VolumeFields& fi
     return pipe.ended() && !grid.density.empty() ? "" : notWhole;
 }
 
-/// The reason why there is no volume, or an empty text.
+/// The reason if there is no volume; empty on success.
 std::string streamAnswer(const std::filesystem::path& file, const VolumeFields& fields, VolumeSink& sink) {
     VdbPipe pipe = startVdbReader(volumeMode + textOf(fields), file);
     VdbMessage message;

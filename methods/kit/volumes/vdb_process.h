@@ -1,7 +1,7 @@
-// Reads a `.vdb` in a process of its own, because OpenVDB trusts what it reads: lengths in a damaged file make it write
-// beyond its memory. What happens to that process is a reason to refuse the file.
+// Reads a `.vdb` in a separate process, because OpenVDB trusts its input: wrong lengths in a damaged file make it write
+// out of bounds. If that process fails, the file is refused.
 //
-// It runs the program dustbench_vdb_reader beside the kit (openvdb/), so that methods do not link OpenVDB.
+// Runs the program dustbench_vdb_reader next to the kit (openvdb/), so that methods do not link OpenVDB.
 #pragma once
 
 #include <filesystem>
@@ -15,19 +15,19 @@
 
 namespace dustbench::volumes {
 
-/// A grid of vectors with the time from its metadata `time_s`. Empty if it was read, else the reason as one clause.
-/// Throws std::runtime_error if the program cannot be started.
+/// Reads a grid of vectors, with the time from its metadata `time_s`. Returns an empty text, or the reason for the
+/// failure as one clause. Throws std::runtime_error if the program cannot be started.
 [[nodiscard]] std::string readVdb(const std::filesystem::path& file, const std::string& field, VectorGrid& grid);
 
-/// The density of a `.vdb` or `.nvdb` within the box of its cells, and the other fields in the same cells. Likewise.
+/// Reads the density of a `.vdb` or `.nvdb` in the box of its cells, and the other fields in the same cells. Likewise.
 [[nodiscard]] std::string readVdbVolume(const std::filesystem::path& file, const VolumeFields& fields,
                                         VolumeGrid& grid);
-/// The same, number by number as they arrive. Also throws what the sink throws.
+/// The same, value by value as they arrive. Also throws what the sink throws.
 [[nodiscard]] std::string streamVdbVolume(const std::filesystem::path& file, const VolumeFields& fields,
                                           VolumeSink& sink);
 
-/// The one grid of points; its positions in the world are the column `Points`. Time as above. Throws InputError with
-/// the file and what is wrong, in one line.
+/// Reads the only grid of points; its positions in the world are the column `Points`. Time as above. Throws InputError
+/// with the file and the fault in one line.
 [[nodiscard]] DUSTBENCH_API PointTable readVdbPoints(const std::filesystem::path& file, const WantsColumn& wants);
 
 /// The same; empty if the file has no grid of points.

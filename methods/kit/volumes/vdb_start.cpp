@@ -1,4 +1,4 @@
-// Apart from vdb_pipe.cpp, so that tests/fuzz/openvdb can start the reader in another way.
+// Separate from vdb_pipe.cpp, so that tests/fuzz/openvdb can start the reader in a different way.
 #include <fcntl.h>
 #include <spawn.h>
 #include <unistd.h>
@@ -20,7 +20,7 @@ namespace {
                              ", which reads volumes: " + std::strerror(error));
 }
 
-/// An error number, or 0.
+/// Returns an error number, or 0.
 int spawn(std::string first, std::string second, int output, pid_t& process) {
     const std::string program = files::besideKit(vdbReaderName);
     std::string self = vdbReaderName;

@@ -42,10 +42,10 @@ VectorGrid readSparseVectors(const std::filesystem::path& file, const std::strin
 void requireFinite(const VectorGrid& grid, const std::filesystem::path& file) {
     for (const double number :
          {grid.spacing, grid.origin.x, grid.origin.y, grid.origin.z, grid.timeSeconds.value_or(0)})
-        if (!std::isfinite(number)) throw refusedVectors(file, "its place or its time is no number");
+        if (!std::isfinite(number)) throw refusedVectors(file, "its position, spacing or time is not a number");
     for (const glm::vec3& v : grid.values)
         if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
-            throw refusedVectors(file, "it has a vector that is no number");
+            throw refusedVectors(file, "it has a vector that is not a number");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A field of vectors on a grid, as a file holds it.
+// A vector field on a grid, as stored in a file.
 //
 // Units and frame: the file's own.
 #pragma once

@@ -31,7 +31,7 @@ void bringTogether(std::vector<VectorGrid>& grids, std::span<const std::filesyst
     for (std::size_t i = 0; i < grids.size(); ++i) {
         place = together(place, grids[i]);
         if (cellsOf(place) * static_cast<double>(grids.size() * sizeof(glm::vec3)) > static_cast<double>(maximumBytes))
-            throw InputError(fmt::format("{}: the box of the series takes more than {} GiB up to here",
+            throw InputError(fmt::format("{}: the box of the series up to this file takes over {} GiB",
                                          names[i].string(), maximumBytes >> 30));
     }
     for (VectorGrid& grid : grids) pad(grid, place);
@@ -48,7 +48,7 @@ VectorSeries::VectorSeries(std::span<const std::filesystem::path> files, const s
                   grids.push_back(readVectors(file, field));
                   bytes += grids.back().values.size() * sizeof(glm::vec3);
                   if (bytes > maximumBytes)
-                      throw InputError(fmt::format("{}: the series takes more than {} GiB up to here", file.string(),
+                      throw InputError(fmt::format("{}: the series up to this file takes over {} GiB", file.string(),
                                                    maximumBytes >> 30));
               }
               return grids;

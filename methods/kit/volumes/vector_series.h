@@ -3,7 +3,7 @@
 // Trilinear between cell centres, constant from the outermost centres to the grid's faces, undefined outside; linear in
 // time, constant before the first and after the last file.
 // Units: metres, seconds, and the field's own. Frame: the files', which is the world. Threads: const members are safe
-// from any.
+// from any thread.
 #pragma once
 
 #include <filesystem>
@@ -43,7 +43,7 @@ class DUSTBENCH_API VectorSeries {
     [[nodiscard]] std::size_t bytes() const;
 
  private:
-    std::vector<VectorGrid> grids_;  ///< all of one place and size, times increase
+    std::vector<VectorGrid> grids_;  ///< same position and size, ascending times
 };
 
 }  // namespace dustbench::volumes

@@ -23,7 +23,7 @@ VectorGrid sampled(const glm::ivec3& cells, const glm::dvec3& origin, double spa
     return grid;
 }
 
-/// A linear field of place and time.
+/// A field linear in position and time.
 struct Linear {
     glm::dmat3 slope;
     glm::dvec3 constant, perSecond;
@@ -104,7 +104,7 @@ TEST(VectorSeries, RefusesGridsThatDifferAndTimesThatDoNotGrow) {
         for (VectorGrid& grid : grids) grid.sparse = sparse;
         return inputError([&] { const VectorSeries series(grids, gridNames); });
     };
-    EXPECT_NE(refused({2, 2, 3}, {0, 0, 0}, 1, 2).find("b.vti: lies on another grid"), std::string::npos);
+    EXPECT_NE(refused({2, 2, 3}, {0, 0, 0}, 1, 2).find("b.vti: is on a different grid"), std::string::npos);
     EXPECT_NE(refused({2, 2, 2}, {1, 0, 0}, 1, 2).find("another grid"), std::string::npos);
     EXPECT_NE(refused({2, 2, 2}, {0, 0, 0}, 1.1, 2).find("another grid"), std::string::npos);
     EXPECT_NE(refused({2, 2, 2}, {0.4, 0, 0}, 1, 2, true).find("another grid"), std::string::npos);

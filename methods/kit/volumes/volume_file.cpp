@@ -16,7 +16,7 @@
 namespace dustbench::volumes {
 namespace {
 
-/// Of the maximum: what a density may lie below zero and counts as zero, for schemes of simulations overshoot.
+/// Fraction of the maximum: densities this far below zero count as zero, because simulation schemes overshoot.
 constexpr float belowZero = 1e-3f;
 constexpr double farthest = 1e9;
 
@@ -67,14 +67,14 @@ void requirePlace(const GridPlace& place, const std::filesystem::path& file) {
     for (const double number :
          {place.spacing, place.origin.x, place.origin.y, place.origin.z, place.timeSeconds.value_or(0)})
         if (!std::isfinite(number) || std::abs(number) > farthest)
-            throw refused(file, "its place or its time is no number up to 1e9");
+            throw refused(file, "its position, spacing or time is not a number up to 1e9");
 }
 
 void requireSound(VolumeGrid& grid, const std::filesystem::path& file, bool clampsDensity) {
     requirePlace(grid, file);
     float maximum = 0;
     for (const float density : grid.density) {
-        if (!std::isfinite(density)) throw refused(file, "it has a density that is no number");
+        if (!std::isfinite(density)) throw refused(file, "it has a density that is not a number");
         maximum = std::max(maximum, density);
     }
     for (float& density : grid.density) {
@@ -83,10 +83,10 @@ void requireSound(VolumeGrid& grid, const std::filesystem::path& file, bool clam
         density = 0;
     }
     if (std::ranges::any_of(grid.temperature, [](float number) { return !std::isfinite(number); }))
-        throw refused(file, "it has a temperature that is no number");
+        throw refused(file, "it has a temperature that is not a number");
     for (const glm::vec3& v : grid.velocity)
         if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
-            throw refused(file, "it has a velocity that is no number");
+            throw refused(file, "it has a velocity that is not a number");
 }
 
 /// True for a `.vti`.
@@ -97,7 +97,7 @@ bool isVti(const std::filesystem::path& file) {
     return extension == ".vti";
 }
 
-/// Holds back a place that is none.
+/// Passes on only valid positions.
 class SoundPlaces final : public VolumeSink {
  public:
     SoundPlaces(VolumeSink& sink, const std::filesystem::path& file) : sink_(sink), file_(file) {}
@@ -117,7 +117,7 @@ class SoundPlaces final : public VolumeSink {
 }  // namespace
 
 void requireDensity(float density, float maximum, const std::filesystem::path& file, bool clampsDensity) {
-    if (!std::isfinite(density)) throw refused(file, "it has a density that is no number");
+    if (!std::isfinite(density)) throw refused(file, "it has a density that is not a number");
     if (density < -belowZero * maximum && !clampsDensity)
         throw refused(file,
                       fmt::format("it has a density of {}, allowed: 0 or more, or clamp_density in a .toml", density));

@@ -1,5 +1,5 @@
-// Volumes that VTK's, OpenVDB's and NanoVDB's own functions made and wrote are read with all their values; what is none
-// is refused in one line.
+// Tests that volumes made and written by VTK's, OpenVDB's and NanoVDB's own functions are read with all their values,
+// and that other files are refused in one line.
 #include "methods/kit/volumes/volume_file.h"
 
 #include <gmock/gmock.h>
@@ -37,7 +37,7 @@ std::string written(const TestFolder& folder, const openvdb::GridPtrVec& grids) 
     return path;
 }
 
-/// A sphere of OpenVDB's, as the distance to its surface.
+/// A sphere from OpenVDB, as the distance to its surface.
 openvdb::FloatGrid::Ptr sphere() {
     openvdb::initialize();
     const auto grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(
@@ -104,7 +104,7 @@ TEST(VolumeFile, ReadsTemperatureAndVelocityInTheDensitysCells) {
     EXPECT_EQ(read.velocity[read.indexOf(middle)], glm::vec3(1, 2, 3));
     VolumeFields fields;
     fields.velocity = "v";
-    EXPECT_THAT(refusalOf(file, fields), HasSubstr("its field 'v' lies on another grid than its density"));
+    EXPECT_THAT(refusalOf(file, fields), HasSubstr("its field 'v' is on a different grid from its density"));
     fields = {};
     fields.temperature = "warmth";
     fields.wantsTemperature = true;
@@ -140,7 +140,7 @@ TEST(VolumeFile, RefusesWhatIsNoDensityOnCubesAlongTheAxes) {
     turned.preRotate(openvdb::math::Y_AXIS, 0.3);
     flat.preScale(openvdb::Vec3d(1, 2, 1));
     EXPECT_THAT(with(transformed(turned)), HasSubstr("its grid is turned"));
-    EXPECT_THAT(with(transformed(flat)), HasSubstr("its cells are no cubes"));
+    EXPECT_THAT(with(transformed(flat)), HasSubstr("its cells are not cubes"));
     EXPECT_THAT(with([](auto& grid) { grid.clear(); }), HasSubstr("its density is zero everywhere"));
     EXPECT_THAT(with([](auto& grid) { openvdb::tools::changeBackground(grid.tree(), 0.5f); }),
                 HasSubstr("the background is 0.5"));
@@ -152,7 +152,7 @@ TEST(VolumeFile, RefusesWhatIsNoDensityOnCubesAlongTheAxes) {
     clamps.clampsDensity = true;
     const VolumeGrid read = readVolume(written(folder, {clamped}), clamps);
     EXPECT_GE(*std::ranges::min_element(read.density), 0);
-    EXPECT_THAT(with([](auto& grid) { grid.getAccessor().setValue({0, 0, 0}, NAN); }), HasSubstr("is no number"));
+    EXPECT_THAT(with([](auto& grid) { grid.getAccessor().setValue({0, 0, 0}, NAN); }), HasSubstr("is not a number"));
     EXPECT_THAT(with([](auto& grid) {
                     grid.getAccessor().setValue({4'000, 4'000, 4'000}, 1);
                 }),
@@ -200,7 +200,7 @@ TEST(VolumeFile, RefusesVtksGridOfOblongCells) {
     writer->SetInputData(image);
     writer->SetFileName(file.c_str());
     ASSERT_EQ(writer->Write(), 1);
-    EXPECT_THAT(refusalOf(file), HasSubstr("its cells are no cubes: 1 x 2 x 1"));
+    EXPECT_THAT(refusalOf(file), HasSubstr("its cells are not cubes: 1 x 2 x 1"));
 }
 
 TEST(VolumeFile, PartsOfAFileAreRefused) {
@@ -210,7 +210,7 @@ TEST(VolumeFile, PartsOfAFileAreRefused) {
     const std::string whole(std::istreambuf_iterator<char>(stream), {});
     for (std::size_t part = 1; part < 8; ++part)
         EXPECT_THAT(refusalOf(folder.write("cut.vdb", whole.substr(0, whole.size() * part / 8))),
-                    HasSubstr("cut.vdb: not a whole file of OpenVDB"));
+                    HasSubstr("cut.vdb: not a complete OpenVDB file"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Density on a grid, as a file holds it, with what else it holds of its smoke.
+// Density on a grid, as stored in a file, with further fields of the smoke.
 //
 // Units and frame: the file's own.
 #pragma once

@@ -19,7 +19,7 @@ std::size_t bytesOf(const VolumeGrid& grid) {
     return (grid.density.size() + grid.temperature.size()) * sizeof(float) + grid.velocity.size() * sizeof(glm::vec3);
 }
 
-/// Values of a grid with +Z up, with +Y up: (x, y, z) becomes (x, z, −y).
+/// Converts values of a grid from +Z up to +Y up: (x, y, z) becomes (x, z, −y).
 template <typename Value>
 void turn(std::vector<Value>& values, const GridPlace& from, const GridPlace& to) {
     if (values.empty()) return;
@@ -51,14 +51,15 @@ void blend(const VolumeGrid& a, const VolumeGrid& b, std::vector<Value> VolumeGr
 }
 
 InputError tooMuch(const std::filesystem::path& file, double bytes) {
-    return InputError(fmt::format("{}: the series takes {:.3g} GB up to here, allowed: {:.3g} GB (limit of volumes)",
-                                  file.string(), bytes / 1e9, static_cast<double>(files::limits::dustBytes) / 1e9));
+    return InputError(
+        fmt::format("{}: the series up to this file takes {:.3g} GB, allowed: {:.3g} GB (limit of volumes)",
+                    file.string(), bytes / 1e9, static_cast<double>(files::limits::dustBytes) / 1e9));
 }
 
 }  // namespace
 
 void placeInWorld(VolumeGrid& grid, const VolumeSetup& setup) {
-    const GridPlace from = static_cast<const GridPlace&>(grid);  // the place alone
+    const GridPlace from = static_cast<const GridPlace&>(grid);  // only the position
     static_cast<GridPlace&>(grid) = placedInWorld(from, setup);
     if (setup.zUp) {
         turn(grid.density, from, grid);
@@ -88,7 +89,7 @@ VolumeSeries VolumeSeries::read(const VolumeSetup& setup) {
 namespace {
 
 std::vector<GridPlace> placesOf(const std::vector<VolumeGrid>& moments) {
-    return {moments.begin(), moments.end()};  // the places alone
+    return {moments.begin(), moments.end()};  // only the positions
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
-// A volume that changes with time, read from files of one grid each: its density between the first and the last moment.
+// A volume that changes with time, read from files of one grid each.
 //
-// Between two moments every value changes evenly; beyond a file's cells there is none. Times count from the first
-// moment. Units: m, s; density and temperature are the files'. Frame: world (+Y up). Threads: const members are safe
-// from any.
+// Values change linearly between two moments and are zero outside of a file's cells. Times count from the first moment.
+// Units: m, s; density and temperature as in the files. Frame: world (+Y up). Threads: const members are safe from any.
 #pragma once
 
 #include <filesystem>
@@ -18,14 +17,14 @@ namespace dustbench::volumes {
 
 class DUSTBENCH_API VolumeSeries {
  public:
-    /// Notes the files as inputs. Throws InputError, one line with the file.
+    /// Notes the files as inputs. Throws InputError with the file in one line.
     static VolumeSeries read(const VolumeSetup& setup);
-    /// One moment or more, in the world; `names` are for messages. Throws InputError if times are missing or do not
-    /// ascend, or the grids do not lie on one lattice.
+    /// At least one moment, in the world; `names` are for messages. Throws InputError if times are missing or do not
+    /// ascend, or the grids are not on one lattice.
     VolumeSeries(std::vector<VolumeGrid> moments, std::vector<std::filesystem::path> names,
                  std::optional<double> secondsPerFile = {});
 
-    /// One moment alone stands still and lasts.
+    /// A single moment does not change and has no end.
     [[nodiscard]] bool isStill() const { return series_.isStill(); }
     /// From the first moment to the last.
     [[nodiscard]] double seconds() const { return series_.seconds(); }
@@ -33,8 +32,8 @@ class DUSTBENCH_API VolumeSeries {
     [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return names_; }
     [[nodiscard]] std::size_t bytes() const;
 
-    /// The volume so many seconds after the first moment; before it the first, after the end the last. It is one of the
-    /// moments, or `between`, which is filled with density and temperature, and with velocity if it is wanted.
+    /// The volume at a time in seconds after the first moment; before it the first one, after the end the last one.
+    /// Returns a moment or `between`, filled with density and temperature, and with velocity if `wantsVelocity`.
     [[nodiscard]] const VolumeGrid& at(double seconds, bool wantsVelocity, VolumeGrid& between) const;
 
  private:
@@ -43,7 +42,7 @@ class DUSTBENCH_API VolumeSeries {
     SeriesPlaces series_;
 };
 
-/// Turns a file's grid to +Y up, and places it in the world.
+/// Rotates a file's grid to +Y up and places it in the world.
 void placeInWorld(VolumeGrid& grid, const VolumeSetup& setup);
 
 }  // namespace dustbench::volumes

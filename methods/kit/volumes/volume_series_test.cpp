@@ -66,8 +66,8 @@ TEST(VolumeSeries, RefusesTimesThatDoNotRiseAndOtherLattices) {
     const auto refusal = [&](VolumeGrid next) {
         return inputError([&] { const VolumeSeries series({one, std::move(next)}, first(2)); });
     };
-    EXPECT_THAT(refusal(filled({2, 2, 2}, {0, 0, 0}, 0, 1)), HasSubstr("b.vdb: its time is 0 s, expected one after 0"));
-    EXPECT_THAT(refusal(filled({2, 2, 2}, {0.2, 0, 0}, 1, 1)), HasSubstr("b.vdb: lies on another grid than a.vdb"));
+    EXPECT_THAT(refusal(filled({2, 2, 2}, {0, 0, 0}, 0, 1)), HasSubstr("b.vdb: its time is 0 s, expected more than 0"));
+    EXPECT_THAT(refusal(filled({2, 2, 2}, {0.2, 0, 0}, 1, 1)), HasSubstr("b.vdb: is on a different grid from a.vdb"));
     EXPECT_THAT(refusal(filled({2, 2, 2}, {1e6, 1e6, 1e6}, 1, 1)), HasSubstr("256000000 cells (limit of volumes)"));
     VolumeGrid timeless = one;
     timeless.timeSeconds.reset();

@@ -44,7 +44,7 @@ void readLook(TomlReader table, const std::filesystem::path& folder, VolumeSetup
         setup.coldTemperature = table.number("cold", -1e9, 1e9);
         setup.hotTemperature = table.number("hot", -1e9, 1e9);
         if (!(setup.hotTemperature > setup.coldTemperature))
-            throw InputError(fmt::format("{}key 'hot': got {}, expected more than {}, which is cold",
+            throw InputError(fmt::format("{}key 'hot': got {}, expected more than {}, the value of 'cold'",
                                          table.where("hot"), setup.hotTemperature, setup.coldTemperature));
     }
     table.finish();

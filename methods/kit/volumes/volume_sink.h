@@ -1,4 +1,4 @@
-// Takes a volume number by number while it is read, so that who reads need not hold all of it.
+// Receives a volume value by value while it is read, so that the reader need not store all of it.
 //
 // Units and frame: the file's own.
 #pragma once
@@ -14,11 +14,11 @@ class VolumeSink {
  public:
     virtual ~VolumeSink() = default;
 
-    /// Comes first, once.
+    /// Called once, before the fields.
     virtual void begin(const GridPlace& place) = 0;
-    /// `density`, `temperature` or `velocity`, in this order; false: its numbers are not wanted.
+    /// `density`, `temperature` or `velocity`, in this order. Returns false to skip the field's values.
     virtual bool beginField(std::string_view field) = 0;
-    /// The field's next numbers: cell by cell, x fastest; three a cell of a velocity.
+    /// The field's next values: cell by cell, x fastest; three per cell for a velocity.
     virtual void take(std::span<const float> numbers) = 0;
 };
 

@@ -1,4 +1,4 @@
-// A wall of volumes as other programs write them: mass, centroid and first value of each, and what of it is ignored.
+// A table of volumes as other programs write them: mass, centroid and first value of each, and the ignored parts.
 //
 // OpenVDB's own Python module makes the files, one script for all of them, with the names, classes and settings of the
 // programs that the rows name. VTK's writers are in vti_file_test.cpp, NanoVDB's in nano_volume_test.cpp.
@@ -129,7 +129,7 @@ Seen seenIn(const VolumeGrid& grid) {
     return seen;
 }
 
-/// The centroid of the block whose first voxel's middle is at `first`.
+/// The centroid of the block whose first voxel is centred at `first`.
 glm::dvec3 blockAt(const glm::dvec3& first) {
     // By hand: Σ x·(1 + x + 10 y + 100 z) / Σ(…) for x = 0..3, y = 0..2, z = 0..1.
     return first + 0.5 * glm::dvec3(1.5 + 1.25 / 62.5, 1 + (10.0 * 2 / 3) / 62.5, 0.5 + (100 * 0.25) / 62.5);
@@ -190,15 +190,15 @@ TEST(VolumeWall, WhatOpenVdbsPythonWritesIsReadAsItsProgramsMeanIt) {
              {"smoke_and_density.vdb", "more than one field of numbers for its density: density, smoke"},
              {"twice.vdb", "density (grid 1 of float), density (grid 2 of float)"},
              {"rotated.vdb", "its grid is turned"},
-             {"oblong.vdb", "its cells are no cubes"},
+             {"oblong.vdb", "its cells are not cubes"},
              {"mirrored.vdb", "its grid is turned"},
-             {"frustum.vdb", "its cells are no cubes"},
+             {"frustum.vdb", "its cells are not cubes"},
              {"haze.vdb", "the background is 0.5"},
              {"vectors_alone.vdb", "it has no field of numbers 'density'"}})
         EXPECT_THAT(inputError([&] { (void)readVolume(folder.path() / file, {}); }), HasSubstr(reason)) << file;
 }
 
-/// VTK's other kinds of data by the ending of image data, and files of other programs by their own.
+/// VTK's other kinds of data with the extension of image data, and files of other programs with their own extensions.
 TEST(VolumeWall, WhatIsNoImageDataIsRefusedByWhatItIs) {
     const TestFolder folder;
     for (const char* kind : {"RectilinearGrid", "StructuredGrid", "UnstructuredGrid", "PolyData", "PImageData"})

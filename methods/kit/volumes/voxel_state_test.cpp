@@ -1,5 +1,5 @@
-// What is switched off in a grid, and vectors on faces, are read the same from .vdb and .nvdb. Apart from the other
-// tests, for its headers are slow.
+// Tests that inactive voxels of a grid, and vectors on faces, are read the same from .vdb and .nvdb. Separate from the
+// other tests, because the headers are slow to compile.
 #include <gtest/gtest.h>
 #include <nanovdb/util/IO.h>
 #include <nanovdb/util/OpenToNanoVDB.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int edge = 4;
 
-/// A cube of 4x4x4 voxels, with values by place.
+/// A cube of 4x4x4 voxels with values by position.
 template <typename Grid, typename Value>
 typename Grid::Ptr cubeOf(const char* name, openvdb::GridClass is, const Value& valueAt,
                           typename Grid::ValueType background = openvdb::zeroVal<typename Grid::ValueType>()) {
@@ -36,7 +36,7 @@ openvdb::FloatGrid::Ptr evenDensity(openvdb::GridClass is = openvdb::GRID_FOG_VO
     return cubeOf<openvdb::FloatGrid>("density", is, [](const openvdb::Coord&) { return 1.0f; });
 }
 
-/// The grids as both kinds of file hold them.
+/// The grids in both formats.
 std::vector<VolumeGrid> readBoth(const TestFolder& folder, const openvdb::GridPtrVec& grids) {
     openvdb::io::File(folder.path() / "a.vdb").write(grids);
     std::vector<nanovdb::GridHandle<nanovdb::HostBuffer>> handles;
@@ -106,7 +106,7 @@ TEST(VoxelState, OfTwoTemperaturesTheOneInTheDensitysCellsIsTaken) {
     }
 }
 
-/// Each component is linear along its own axis: 0.1, 0.2 and 0.3 a voxel.
+/// Each component is linear along its own axis: 0.1, 0.2 and 0.3 per voxel.
 openvdb::Vec3SGrid::Ptr slopes(openvdb::GridClass is) {
     return cubeOf<openvdb::Vec3SGrid>("velocity", is, [](const openvdb::Coord& at) {
         return openvdb::Vec3s(0.1f * static_cast<float>(at.x()), 0.2f * static_cast<float>(at.y()),

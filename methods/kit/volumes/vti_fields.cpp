@@ -26,7 +26,7 @@ struct Clause {
     std::string reason;
 };
 
-/// The arrays at one place, with where they are as text.
+/// The arrays at cells or at points; `where` says which.
 std::vector<PresentField> presentAt(const std::vector<VtiArray>& arrays, const char* where) {
     std::vector<PresentField> present;
     present.reserve(arrays.size());
@@ -57,7 +57,7 @@ VtiFields::VtiFields(const VtiFile& vti, std::span<const WantedField> wanted, co
     place_.spacing = vti.spacing().x;
     for (int axis = 0; axis < 3; ++axis)
         if (!(vti.spacing()[axis] > 0) || std::abs(vti.spacing()[axis] / place_.spacing - 1) > cubeWithin)
-            throw refusedField(file, fmt::format("its cells are no cubes: {} x {} x {}", vti.spacing().x,
+            throw refusedField(file, fmt::format("its cells are not cubes: {} x {} x {}", vti.spacing().x,
                                                  vti.spacing().y, vti.spacing().z));
     choose(wanted, file);
     if (atPoints_) {
@@ -69,7 +69,7 @@ VtiFields::VtiFields(const VtiFile& vti, std::span<const WantedField> wanted, co
     noteRest(file);
 }
 
-/// All but the chosen, the time, and what VTK marks cells by.
+/// Notes all arrays but the chosen ones, the time, and VTK's marks of cells as ignored.
 void VtiFields::noteRest(const std::filesystem::path& file) const {
     std::vector<std::string> rest;
     const auto note = [&](const std::vector<VtiArray>& arrays, const char* where) {
@@ -95,7 +95,7 @@ void VtiFields::choose(std::span<const WantedField> wanted, const std::filesyste
     try {
         for (const WantedField& each : wanted) {
             std::vector<PresentField> present = all;
-            if (!chosen_.empty() && !each.isRequired)  // another place is as good as another file
+            if (!chosen_.empty() && !each.isRequired)  // a field elsewhere counts as missing
                 for (std::size_t i = 0; i < present.size(); ++i)
                     if ((i >= atCells) != atPoints_) present[i].components = 0;
             const int found = chosenField<Clause>(each, present);
@@ -103,7 +103,7 @@ void VtiFields::choose(std::span<const WantedField> wanted, const std::filesyste
             const auto at = static_cast<std::size_t>(found);
             if (chosen_.empty()) atPoints_ = at >= atCells;
             if ((at >= atCells) != atPoints_)
-                throw Clause{fmt::format("its field '{}' lies {}, its {} {}", present[at].name, present[at].kind,
+                throw Clause{fmt::format("its field '{}' is {}, but its {} is {}", present[at].name, present[at].kind,
                                          chosen_.front().what, atPoints_ ? "at points" : "at cells")};
             chosen_.push_back({each.what, arrayAt(at)});
         }
@@ -112,7 +112,7 @@ void VtiFields::choose(std::span<const WantedField> wanted, const std::filesyste
     }
 }
 
-/// Where `vtkGhostType` has one of the marks, or the older `vtkGhostLevels` is not 0; empty if there is neither.
+/// True where `vtkGhostType` has one of the marks, or the older `vtkGhostLevels` is not 0; empty if neither is present.
 std::vector<char> VtiFields::markedIn(const std::vector<VtiArray>& arrays, unsigned marks) const {
     std::vector<char> marked;
     for (const VtiArray& array : arrays) {

@@ -1,7 +1,8 @@
-// The wanted fields of a `.vti`, at its cells or at its points, and the grid that they lie on.
+// The wanted fields of a `.vti`, at its cells or at its points, and their grid.
 //
-// Points are the middles of cells. All fields lie where the first one lies. What VTK marks as hidden, duplicate or
-// refined (`vtkGhostType`) is zero: such cells, points whose cells are all marked, and cells with a hidden point.
+// Points are the centres of cells. All fields must be at cells or at points, like the first one. Cells that VTK marks
+// as hidden, duplicate or refined (`vtkGhostType`) are zero, and so are points whose cells are all marked, and cells
+// with a hidden point.
 // Source: Kitware2021, "XML file formats"; the marks are those of vtkDataSetAttributes.
 #pragma once
 
@@ -29,9 +30,9 @@ class VtiFields {
 
     [[nodiscard]] const GridPlace& place() const { return place_; }
     [[nodiscard]] const std::vector<Chosen>& chosen() const { return chosen_; }
-    /// Of one of the chosen, cell by cell. Throws InputError.
+    /// The values of a chosen field, cell by cell. Throws InputError.
     [[nodiscard]] std::vector<float> numbersOf(const Chosen& field) const;
-    /// The same, a piece after the other. Also throws what `take` throws.
+    /// The same, piece by piece. Also throws what `take` throws.
     void streamNumbers(const Chosen& field, const std::function<void(std::span<const float>)>& take) const;
 
  private:
@@ -44,7 +45,7 @@ class VtiFields {
     GridPlace place_;
     bool atPoints_ = false;
     std::vector<Chosen> chosen_;
-    std::vector<char> isHidden_;  ///< cell by cell; empty: none is
+    std::vector<char> isHidden_;  ///< per cell; empty: none is hidden
 };
 
 }  // namespace dustbench::volumes

@@ -15,10 +15,10 @@
 namespace dustbench::volumes {
 namespace {
 
-/// Of a place or a distance.
+/// For positions and distances.
 constexpr double maximumNumber = 1e9;
 
-/// All words of the text as numbers; empty if one is none.
+/// All words of the text as numbers; empty if one is not a number.
 template <typename Number>
 std::vector<Number> numbersIn(std::string_view text) {
     std::vector<Number> list;
@@ -44,7 +44,7 @@ std::int64_t countOf(const Tag& tag, std::string_view attribute, std::int64_t ma
 
 using Extent = std::array<std::int64_t, 6>;
 
-/// Six integers, of which the second of each pair is not below the first.
+/// Six integers; the second of each pair must not be less than the first.
 Extent extentOf(const Tag& tag, std::string_view attribute) {
     const auto list = numbersIn<std::int64_t>(tag[attribute]);
     Extent extent{};
@@ -66,7 +66,7 @@ glm::dvec3 vectorOf(const Tag& tag, std::string_view attribute, const glm::dvec3
     return {list[0], list[1], list[2]};
 }
 
-/// The unit matrix, but for rounding.
+/// True for the unit matrix, up to rounding.
 bool isUpright(const std::vector<double>& direction) {
     if (direction.size() != 9) return false;
     for (std::size_t i = 0; i < 9; ++i)
@@ -86,7 +86,7 @@ glm::ivec3 cellsOf(const Extent& extent, std::size_t fileBytes) {
     if (count > static_cast<double>(files::limits::volumeCells))
         throw VolumeFault{
             fmt::format("it has {:.0f} cells, allowed: {} (limit of volumes)", count, files::limits::volumeCells)};
-    // No compression of VTK's puts 8,192 bytes into one.
+    // VTK's compressors do not pack 8,192 bytes into one.
     if (count * sizeof(float) > 8192.0 * static_cast<double>(fileBytes))
         throw VolumeFault{fmt::format("it has {:.0f} cells, which do not fit into its {} bytes", count, fileBytes)};
     return cells;
@@ -94,7 +94,7 @@ glm::ivec3 cellsOf(const Extent& extent, std::size_t fileBytes) {
 
 }  // namespace
 
-/// Goes through the elements. What an element may hold is the whitelist.
+/// Walks through the elements. An element may contain only what the whitelist allows.
 class VtiParser {
  public:
     VtiParser(VtiFile& file, std::string_view text) : file_(file), text_(text), scan_(text) {}
@@ -135,9 +135,8 @@ class VtiParser {
 
     void open(const Tag& tag) {
         if (!mayHold(inside(), tag.name))
-            throw VolumeFault{seenRoot_
-                                  ? fmt::format("it has an element '{}' where none belongs", tag.name.substr(0, 40))
-                                  : "it is no image data"};
+            throw VolumeFault{seenRoot_ ? fmt::format("it has an unexpected element '{}'", tag.name.substr(0, 40))
+                                        : "it is not image data"};
         if (tag.name == "VTKFile") openRoot(tag);
         if (tag.name == "ImageData") openImage(tag);
         if (tag.name == "Piece") openPiece(tag);
@@ -152,7 +151,7 @@ class VtiParser {
     void openRoot(const Tag& tag) {
         seenRoot_ = true;
         if (tag["type"] != "ImageData")
-            throw VolumeFault{fmt::format("it is no image data but '{}'", tag["type"].substr(0, 40))};
+            throw VolumeFault{fmt::format("it is not image data but '{}'", tag["type"].substr(0, 40))};
         const std::string_view version = tag["version"];
         if (!version.empty() && !version.starts_with("0.") && !version.starts_with("1.") && !version.starts_with("2."))
             throw VolumeFault{fmt::format("its version is '{}', allowed: 0.1 to 2.x", version.substr(0, 40))};
@@ -178,10 +177,10 @@ class VtiParser {
 
     void openPiece(const Tag& tag) {
         seenPiece_ = true;
-        if (extentOf(tag, "Extent") != *extent_) throw VolumeFault{"its piece is not its whole extent"};
+        if (extentOf(tag, "Extent") != *extent_) throw VolumeFault{"its piece does not cover its whole extent"};
     }
 
-    /// Text that is no number, as units are, and bits are passed over.
+    /// Skips arrays of text, such as units, and of bits.
     void openArray(const Tag& tag) {
         array_.emplace();
         array_->name = tag.text("Name");
@@ -241,12 +240,12 @@ class VtiParser {
         arrays.push_back(std::move(*array_));
     }
 
-    /// What stands between '_' and the end of its element, after which only the root ends.
+    /// The text between '_' and the end of its element, after which only the root ends.
     [[nodiscard]] std::string_view endOfAppended() {
         const std::string_view rest = scan_.rest();
         const std::size_t start = rest.find('_'), end = rest.rfind("</AppendedData");
         if (end == std::string_view::npos || start >= end || !trimmed(rest.substr(0, start)).empty())
-            throw VolumeFault{"its appended data are missing or cut"};
+            throw VolumeFault{"its appended data are missing or truncated"};
         XmlScan tail(rest.substr(end));
         std::optional<Tag> tag;
         do {
@@ -264,7 +263,7 @@ class VtiParser {
             throw VolumeFault{"it has no arrays of cells or points"};
         for (const Appended& each : appended_) {
             StoredNumbers& stored = (*each.arrays)[each.index].stored;
-            if (each.offset >= appended.size()) throw VolumeFault{"its appended data are missing or cut"};
+            if (each.offset >= appended.size()) throw VolumeFault{"its appended data are missing or truncated"};
             stored.form = appendedForm_;
             stored.text = appended.substr(each.offset);
         }
@@ -280,8 +279,8 @@ class VtiParser {
     XmlScan scan_;
     std::vector<std::string_view> path_;
     std::optional<Extent> extent_;
-    std::optional<VtiArray> array_;      ///< the one that is open
-    std::optional<std::size_t> offset_;  ///< its own
+    std::optional<VtiArray> array_;      ///< the open one
+    std::optional<std::size_t> offset_;  ///< of the open array
     std::vector<Appended> appended_;
     StoredNumbers::Form appendedForm_ = StoredNumbers::Form::base64;
     bool seenRoot_ = false, seenPiece_ = false, seenCells_ = false;

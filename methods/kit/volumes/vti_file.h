@@ -1,9 +1,9 @@
 // Reads VTK's image data (`.vti`): a grid of cells with arrays of numbers.
 //
-// The structure is read as a whole and held to a whitelist when the file is opened, the numbers of an array when they
-// are asked for. What is not exactly as long as its extent is an error, as is everything that is not known.
-// Source: Kitware2021, "XML file formats". Departs: one piece, which is the whole extent; an upright
-// grid of three directions; compressed by zlib or LZ4 or not at all.
+// Opening a file reads the structure as a whole and checks it against a whitelist; the values of an array are read on
+// request. Arrays that do not exactly match their extent, and everything unknown, are errors.
+// Source: Kitware2021, "XML file formats". Departs: one piece, which is the whole extent; an axis-aligned grid of three
+// dimensions; compressed by zlib or LZ4 or not at all.
 // Units and frame: the file's own. Owns: the file's text. Errors: every member throws InputError with the file.
 #pragma once
 
@@ -27,7 +27,7 @@ struct VtiArray {
 class DUSTBENCH_API VtiFile {
  public:
     explicit VtiFile(const std::filesystem::path& file);
-    /// The text of a file; its name is for messages.
+    /// `text` is the file's content; `file` is for messages.
     VtiFile(std::string text, std::filesystem::path file);
     VtiFile(const VtiFile&) = delete;
     VtiFile& operator=(const VtiFile&) = delete;
@@ -37,21 +37,21 @@ class DUSTBENCH_API VtiFile {
     [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
     [[nodiscard]] const glm::dvec3& spacing() const { return spacing_; }
 
-    /// Numbers at the cells; x runs fastest, z slowest.
+    /// Arrays at the cells; x runs fastest, z slowest.
     [[nodiscard]] const std::vector<VtiArray>& cellArrays() const { return cellArrays_; }
-    /// Likewise at the points, of which there is one more in each direction.
+    /// Arrays at the points, likewise; there is one more point than cells in each direction.
     [[nodiscard]] const std::vector<VtiArray>& pointArrays() const { return pointArrays_; }
-    /// Null if there is none of that name.
+    /// Null if there is no array of that name.
     [[nodiscard]] const VtiArray* cellArray(std::string_view name) const;
-    /// Of one of the arrays, cell by cell.
+    /// The values of one of the arrays, cell by cell.
     [[nodiscard]] std::vector<float> numbersOf(const VtiArray& array) const;
-    /// The same, a piece after the other. Also throws what `take` throws.
+    /// The same, piece by piece. Also throws what `take` throws.
     void streamNumbers(const VtiArray& array, const std::function<void(std::span<const float>)>& take) const;
-    /// Numbers of the whole, as a time.
+    /// Field data, which apply to the whole file, such as a time.
     [[nodiscard]] const std::vector<VtiArray>& fieldArrays() const { return fieldArrays_; }
     /// Arrays of text and of bits, which are not read: `array 'names'`.
     [[nodiscard]] const std::vector<std::string>& unreadArrays() const { return unreadArrays_; }
-    /// The number of a field array that holds just one.
+    /// The value of a field array with exactly one value.
     [[nodiscard]] std::optional<double> fieldNumber(std::string_view name) const;
 
  private:

@@ -32,10 +32,10 @@ using Kind = NumberType::Kind;
 // Text.
 
 [[noreturn]] void failNumber(std::string_view word, const NumberType& type) {
-    throw VolumeFault{fmt::format("an array of {} has '{}'", type.name, word.substr(0, 40))};
+    throw VolumeFault{fmt::format("an array of {} contains '{}'", type.name, word.substr(0, 40))};
 }
 
-/// The whole word; what is too small for the type is 0, what is too large for it no number.
+/// Parses the whole word. A value too small for the type becomes 0; one too large for it is not a number.
 template <typename Real>
 Real realOf(std::string_view word, const NumberType& type) {
     Real value = 0;
@@ -57,7 +57,7 @@ double parsed(std::string_view word, const NumberType& type) {
     return value;
 }
 
-/// Numbers on their way to who takes them.
+/// Passes numbers on to their receiver.
 class Stream {
  public:
     using value_type = float;
@@ -108,7 +108,7 @@ constexpr std::array<std::int8_t, 256> sixBits = [] {
     return values;
 }();
 
-/// The first `count` bytes of a unit of base64, which holds as many.
+/// The first `count` bytes of a base64 unit, which must contain as many.
 std::string decoded(std::string_view text, std::size_t count) {
     std::string bytes;
     bytes.reserve(count + 2);
@@ -125,17 +125,17 @@ std::string decoded(std::string_view text, std::size_t count) {
     return bytes;
 }
 
-/// Units of bytes one after the other.
+/// Reads consecutive units of bytes.
 class ByteSource {
  public:
     explicit ByteSource(const StoredNumbers& stored)
         : rest_(stored.text), isBase64_(stored.form == StoredNumbers::Form::base64) {}
 
-    /// Bytes that a unit could have.
+    /// Maximum number of bytes in the next unit.
     [[nodiscard]] std::size_t available() const { return isBase64_ ? rest_.size() / 4 * 3 : rest_.size(); }
-    /// The beginning of the next unit.
+    /// The start of the next unit.
     [[nodiscard]] std::string peek(std::size_t count) const {
-        if (count > available()) throw VolumeFault{"an array lies beyond the end of its data"};
+        if (count > available()) throw VolumeFault{"an array extends beyond the end of its data"};
         return isBase64_ ? decoded(rest_, count) : std::string(rest_.substr(0, count));
     }
     /// The next unit, of this many bytes.
@@ -189,18 +189,18 @@ void append(Numbers& numbers, std::string_view bytes, const NumberType& type, bo
 
 struct Blocks {
     std::size_t blockBytes = 0, lastBytes = 0;
-    std::vector<std::size_t> lengths;  ///< compressed
-    std::size_t total = 0;             ///< compressed, all together
+    std::vector<std::size_t> lengths;  ///< compressed bytes of each
+    std::size_t total = 0;             ///< sum of `lengths`
 
     [[nodiscard]] std::size_t bytesOf(std::size_t block) const {
         return block + 1 == lengths.size() && lastBytes > 0 ? lastBytes : blockBytes;
     }
 };
 
-/// Neither compressor puts more bytes into one than zlib, 1032.
+/// The highest ratio of either compressor is zlib's, 1032.
 constexpr std::size_t maximumRatio = 1040;
 
-/// The words before the blocks, which must hold `bytes` together.
+/// Reads the words before the blocks, whose contents must have `bytes` bytes together.
 Blocks readBlocks(ByteSource& source, std::size_t bytes, const StoredNumbers& stored, const BinaryForm& form) {
     const std::string start = source.peek(3 * form.wordBytes);
     const std::uint64_t count = wordOf(start, 0, form), blockBytes = wordOf(start, 1, form),

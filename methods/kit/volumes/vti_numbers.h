@@ -1,9 +1,9 @@
 // The numbers of one array of a VTK file: text, base64 or raw bytes, whole or in compressed blocks.
 //
-// Binary data begin with words of 4 or 8 bytes. Uncompressed: the number of bytes, then these. Compressed: the number
-// of blocks n, the bytes of a block and of the last one (0: as the others) once decompressed, then n lengths; the
-// blocks follow. In base64 a whole uncompressed array is one unit, a compressed one has its words in a unit of their
-// own. Everything is held to its length before memory is allocated. Source: Kitware2021, "XML file formats". Departs:
+// Binary data begin with words of 4 or 8 bytes. Uncompressed: the number of bytes, then the bytes. Compressed: the
+// number of blocks n, the decompressed size of a block and of the last block (0: as the others), n compressed sizes,
+// and then the blocks. In base64, an uncompressed array is one unit; the words of a compressed one are a separate unit.
+// Every length is checked before memory is allocated. Source: Kitware2021, "XML file formats". Departs:
 // no LZMA.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace dustbench::volumes {
 
-/// Of an array: numbers of one point or cell.
+/// Numbers of an array per point or cell.
 inline constexpr std::int64_t maximumComponents = 64;
 
 struct NumberType {
@@ -25,32 +25,32 @@ struct NumberType {
     enum class Kind { integer, natural, real } kind = Kind::real;
 };
 
-/// Null if these are no numbers of whole bytes.
+/// Null for types that are not numbers of whole bytes.
 [[nodiscard]] const NumberType* findNumberType(std::string_view name);
 
 enum class Compressor { none, zlib, lz4 };
 
-/// What the root of a file says of all its arrays.
+/// Properties of all arrays of a file, from its root element.
 struct BinaryForm {
     bool isBigEndian = false;
     std::size_t wordBytes = 4;
     Compressor compressor = Compressor::none;
 };
 
-/// Where an array is, and how.
+/// Position and format of an array.
 struct StoredNumbers {
     const NumberType* type = nullptr;
     std::size_t count = 0;
     enum class Form { ascii, base64, raw } form = Form::ascii;
-    std::string_view text;   ///< from its beginning on
-    bool endsThere = false;  ///< no byte may follow it
+    std::string_view text;   ///< from its start
+    bool endsThere = false;  ///< nothing may follow it
 };
 
-/// All numbers, in order. Throws VolumeFault unless there are exactly as many.
+/// All numbers, in order. Throws VolumeFault if their count differs.
 template <typename Number>  // float or double
 [[nodiscard]] std::vector<Number> readNumbers(const StoredNumbers& stored, const BinaryForm& form);
 
-/// The same, a piece after the other, none of which lasts.
+/// The same, piece by piece; a piece is valid during the call only.
 void streamNumbers(const StoredNumbers& stored, const BinaryForm& form,
                    const std::function<void(std::span<const float>)>& take);
 

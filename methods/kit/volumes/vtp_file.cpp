@@ -41,7 +41,7 @@ struct StoredArray {
     std::optional<std::size_t> offset;
 };
 
-/// Goes through the elements. What an element may hold is the whitelist.
+/// Walks through the elements. An element may contain only what the whitelist allows.
 class VtpParser {
  public:
     explicit VtpParser(std::string_view text) : text_(text), scan_(text) {}
@@ -100,9 +100,8 @@ class VtpParser {
 
     void open(const Tag& tag) {
         if (!mayHold(inside(), tag.name))
-            throw VolumeFault{seenRoot_
-                                  ? fmt::format("it has an element '{}' where none belongs", tag.name.substr(0, 40))
-                                  : "it is no poly data"};
+            throw VolumeFault{seenRoot_ ? fmt::format("it has an unexpected element '{}'", tag.name.substr(0, 40))
+                                        : "it is not poly data"};
         if (tag.name == "VTKFile") openRoot(tag);
         if (tag.name == "PolyData") seenData_ = true;
         if (tag.name == "Piece") openPiece(tag);
@@ -116,7 +115,7 @@ class VtpParser {
     void openRoot(const Tag& tag) {
         seenRoot_ = true;
         if (tag["type"] != "PolyData")
-            throw VolumeFault{fmt::format("it is no poly data but '{}'", tag["type"].substr(0, 40))};
+            throw VolumeFault{fmt::format("it is not poly data but '{}'", tag["type"].substr(0, 40))};
         form_.isBigEndian = choice(tag, "byte_order", {"LittleEndian", "BigEndian"}) == 1;
         form_.wordBytes = choice(tag, "header_type", {"UInt32", "UInt64"}) == 1 ? 8 : 4;
         if (tag.has("compressor") && !tag["compressor"].empty())
@@ -128,18 +127,18 @@ class VtpParser {
     void openPiece(const Tag& tag) {
         seenPiece_ = true;
         points_ = static_cast<std::size_t>(wholeNumberOf(tag, "NumberOfPoints", 0, files::limits::dustParticles, 0));
-        // No compression of VTK's puts 8,192 bytes into one.
+        // VTK's compressors do not pack 8,192 bytes into one.
         if (static_cast<double>(points_) * 3 * sizeof(float) > 8192.0 * static_cast<double>(text_.size()))
             throw VolumeFault{
                 fmt::format("it has {} points, which do not fit into its {} bytes", points_, text_.size())};
     }
 
-    /// Arrays of cells are not looked at; text that is no number, as units are, and bits are passed over.
+    /// Ignores arrays of cells; skips arrays of text, such as units, and of bits.
     void openArray(const Tag& tag) {
         array_.emplace();
         array_->name = inside() == "Points" ? std::string(pointsColumn) : tag.text("Name");
         array_->components = static_cast<int>(wholeNumberOf(tag, "NumberOfComponents", 1, maximumComponents, 1));
-        if (inside() == "Points" && array_->components != 3) throw VolumeFault{"its points have not three coordinates"};
+        if (inside() == "Points" && array_->components != 3) throw VolumeFault{"its points do not have 3 coordinates"};
         array_->stored.type = findNumberType(tag["type"]);
         if (!array_->stored.type && tag["type"] != "String" && tag["type"] != "Bit")
             throw VolumeFault{
@@ -183,12 +182,12 @@ class VtpParser {
         arrays.push_back(std::move(*array_));
     }
 
-    /// What stands between '_' and the end of its element, after which only the root ends.
+    /// The text between '_' and the end of its element, after which only the root ends.
     [[nodiscard]] std::string_view endOfAppended() {
         const std::string_view rest = scan_.rest();
         const std::size_t start = rest.find('_'), end = rest.rfind("</AppendedData");
         if (end == std::string_view::npos || start >= end || !trimmed(rest.substr(0, start)).empty())
-            throw VolumeFault{"its appended data are missing or cut"};
+            throw VolumeFault{"its appended data are missing or truncated"};
         XmlScan tail(rest.substr(end));
         std::optional<Tag> tag;
         do {
@@ -205,7 +204,7 @@ class VtpParser {
         for (std::vector<StoredArray>* arrays : {&pointArrays_, &fieldArrays_})
             for (StoredArray& array : *arrays) {
                 if (!array.offset || array.stored.count == 0) continue;
-                if (*array.offset >= appended.size()) throw VolumeFault{"its appended data are missing or cut"};
+                if (*array.offset >= appended.size()) throw VolumeFault{"its appended data are missing or truncated"};
                 array.stored.form = appendedForm_;
                 array.stored.text = appended.substr(*array.offset);
             }
@@ -213,7 +212,7 @@ class VtpParser {
             throw VolumeFault{"it has no points"};
     }
 
-    /// Points that VTK marks as duplicate (1) or hidden (2) are another piece's, or nobody's.
+    /// Removes points that VTK marks as duplicate (1) or hidden (2): they belong to another piece or to none.
     void leaveOutGhosts(PointTable& table) const {
         const auto ghosts = std::ranges::find(pointArrays_, ghostArray, &StoredArray::name);
         if (ghosts == pointArrays_.end() || ghosts->components != 1) return;
@@ -251,7 +250,7 @@ class VtpParser {
     BinaryForm form_;
     std::vector<std::string_view> path_;
     std::size_t points_ = 0;
-    std::optional<StoredArray> array_;  ///< the one that is open
+    std::optional<StoredArray> array_;  ///< the open one
     std::vector<StoredArray> pointArrays_, fieldArrays_;
     std::vector<std::string> unread_;  ///< arrays at cells and of text
     StoredNumbers::Form appendedForm_ = StoredNumbers::Form::base64;

@@ -1,4 +1,4 @@
-// Files that VTK's own writer wrote are read as VTK wrote them.
+// Tests that files written by VTK's own writer are read as VTK wrote them.
 #include "methods/kit/volumes/vtp_file.h"
 
 #include <gmock/gmock.h>
@@ -132,13 +132,13 @@ TEST(VtpFile, WhatIsNoPolyDataOrLiesAboutItsLengthIsRefused) {
     };
     const std::string points =
         "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\">1 2 3</DataArray></Points>";
-    EXPECT_THAT(refusal("<VTKFile type=\"ImageData\"/>"), HasSubstr("it is no poly data"));
+    EXPECT_THAT(refusal("<VTKFile type=\"ImageData\"/>"), HasSubstr("it is not poly data"));
     EXPECT_THAT(refusal(with("<Piece NumberOfPoints=\"99999999999\"/>")), HasSubstr("NumberOfPoints"));
     EXPECT_THAT(refusal(with("<Piece NumberOfPoints=\"9999999\"/>")), HasSubstr("do not fit into its"));
     EXPECT_THAT(refusal(with("<Piece NumberOfPoints=\"2\">" + points + "</Piece>")), HasSubstr("shorter"));
     EXPECT_THAT(refusal(with("<Piece NumberOfPoints=\"1\"/>")), HasSubstr("it has no points"));
     EXPECT_THAT(refusal(with("<Piece NumberOfPoints=\"1\">" + points + "</Piece><Piece NumberOfPoints=\"1\"/>")),
-                HasSubstr("where none belongs"));
+                HasSubstr("unexpected element"));
     EXPECT_EQ(readCloud(folder.write("b.vtp", with("<Piece NumberOfPoints=\"1\">" + points + "</Piece>"))).points, 1u);
 }
 

@@ -1,5 +1,5 @@
-// Of several fields in a file the density is the one of its name, wherever it lies; where two could be it the file is
-// refused, and both are named.
+// Tests the choice of the density among several fields by name, at cells or points. If two fields match, the file is
+// refused and both are named.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
@@ -81,7 +81,7 @@ TEST(WhichField, TwoCandidatesAreRefusedAndNamed) {
     named.temperature = "heat";
     named.wantsTemperature = true;
     EXPECT_THAT(rowRefusal(folder, {cells}, {{"Float32", "heat", sixteen}}, named),
-                HasSubstr("its field 'heat' lies at points, its density at cells"));
+                HasSubstr("its field 'heat' is at points, but its density is at cells"));
 }
 
 TEST(WhichField, CellsAndPointsThatVtkMarksDoNotCount) {
@@ -91,16 +91,16 @@ TEST(WhichField, CellsAndPointsThatVtkMarksDoNotCount) {
         EXPECT_THAT(readRow(folder, {density, {"UInt8", "vtkGhostType", marks}}, {}).density, ElementsAre(1, 0, 3));
     EXPECT_THAT(readRow(folder, {density, {"UInt8", "vtkGhostType", "0 2 16"}}, {}).density, ElementsAre(1, 2, 3));
     EXPECT_THAT(readRow(folder, {density, {"UInt8", "vtkGhostLevels", "0 0 2"}}, {}).density, ElementsAre(1, 2, 0));
-    // A hidden point, the first, hides the cell at it; a duplicate one does not.
+    // A hidden point, the first, hides its cell; a duplicate one does not.
     EXPECT_THAT(readRow(folder, {density}, {{"UInt8", "vtkGhostType", "2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0"}}).density,
                 ElementsAre(0, 2, 3));
     EXPECT_THAT(readRow(folder, {density}, {{"UInt8", "vtkGhostType", "1 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0"}}).density,
                 ElementsAre(1, 2, 3));
-    // The first cell's points but those of the second cell are hidden with it; so are points that are marked.
+    // The first cell's points are hidden with it, except those of the second cell; so are marked points.
     const VolumeGrid read = readRow(folder, {{"UInt8", "vtkGhostType", "32 0 0"}},
                                     {points, {"UInt8", "vtkGhostType", "0 0 0 1 0 0 0 0 0 0 0 0 0 0 0 2"}});
     EXPECT_THAT(read.density, ElementsAre(0, 2, 3, 0, 0, 6, 7, 8, 0, 10, 11, 12, 0, 14, 15, 0));
-    // What is hidden need not be a density.
+    // Hidden cells may have invalid densities.
     EXPECT_THAT(readRow(folder, {{"Float32", "density", "1 -9 3"}, {"UInt8", "vtkGhostType", "0 32 0"}}, {}).density,
                 ElementsAre(1, 0, 3));
 }
@@ -142,7 +142,7 @@ TEST(WhichField, TwoVdbGridsOfANameAreRefused) {
     EXPECT_THAT(refusal({gridOfOneCell<openvdb::FloatGrid>("", 1), gridOfOneCell<openvdb::FloatGrid>("", 1)}),
                 HasSubstr("it has: (no name) (grid 1 of float), (no name) (grid 2 of float)"));
     EXPECT_THAT(refusal({gridOfOneCell<openvdb::Int32Grid>("density", 1)}),
-                HasSubstr("'density' (grid 1 of int32) does not hold one floating-point number a cell"));
+                HasSubstr("'density' (grid 1 of int32) does not contain one floating-point number per cell"));
     openvdb::io::File(file).write(
         {gridOfOneCell<openvdb::Vec3SGrid>("wind", {1, 2, 3}), gridOfOneCell<openvdb::Vec3SGrid>("wind", {4, 5, 6})});
     EXPECT_THAT(inputError([&] { (void)readVectors(file, "wind"); }),

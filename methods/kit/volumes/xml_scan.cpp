@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
 
-/// The code point as UTF-8; empty if it is none that XML allows.
+/// The code point as UTF-8; empty if XML does not allow it.
 std::string encodedUtf8(std::uint32_t code) {
     if (code == 0 || code > 0x10ffff || (code >= 0xd800 && code <= 0xdfff)) return "";
     if (code < 0x80) return {static_cast<char>(code)};
@@ -24,7 +24,7 @@ std::string encodedUtf8(std::uint32_t code) {
     return {byte(0xf0, 18), byte(0x80, 12), byte(0x80, 6), byte(0x80, 0)};
 }
 
-/// What stands between `&` and `;`.
+/// The character of the reference between `&` and `;`.
 std::string decodedReference(std::string_view name) {
     constexpr std::array<std::pair<std::string_view, char>, 5> named{
         {{"amp", '&'}, {"lt", '<'}, {"gt", '>'}, {"quot", '"'}, {"apos", '\''}}};
@@ -39,7 +39,7 @@ std::string decodedReference(std::string_view name) {
             std::from_chars(digits.data(), digits.data() + digits.size(), code, isHexadecimal ? 16 : 10);
         if (error == std::errc() && end == digits.data() + digits.size()) character = encodedUtf8(code);
     }
-    if (character.empty()) throw VolumeFault{fmt::format("it has the reference '&{};', which XML has not", name)};
+    if (character.empty()) throw VolumeFault{fmt::format("it has the reference '&{};', unknown to XML", name)};
     return character;
 }
 
@@ -83,7 +83,7 @@ std::string_view XmlScan::next(std::optional<Tag>& tag) {
         skipBlanks();
     }
     if (rest_.empty()) return before;
-    if (rest_.starts_with("<!")) throw VolumeFault{"it has a document type or CDATA, which no file of VTK's has"};
+    if (rest_.starts_with("<!")) throw VolumeFault{"it has a document type or CDATA, which VTK's files do not have"};
     if (!rest_.starts_with("<")) throw VolumeFault{"it has text outside of its arrays"};
     tag = readTag();
     return before;

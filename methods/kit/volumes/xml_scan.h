@@ -1,5 +1,5 @@
 // Reads XML tag by tag, as far as VTK's files use it: elements, attributes, comments. Document types and CDATA
-// are refused; references are decoded where a name is asked for (`Tag::text`); nothing nests on the stack.
+// are refused. References are decoded only in `Tag::text`. Nesting uses no stack.
 #pragma once
 
 #include <cstddef>
@@ -22,31 +22,31 @@ struct Tag {
     enum class Kind { open, close, whole } kind = Kind::open;
 
     [[nodiscard]] bool has(std::string_view attribute) const { return attributes.contains(attribute); }
-    /// Empty if it has none of that name.
+    /// Empty if there is no such attribute.
     [[nodiscard]] std::string_view operator[](std::string_view attribute) const {
         const auto found = attributes.find(attribute);
         return found == attributes.end() ? std::string_view() : found->second;
     }
-    /// The same with its references decoded, as `&amp;` or `&#228;`. Throws VolumeFault for one that is none.
+    /// The same with references such as `&amp;` or `&#228;` decoded. Throws VolumeFault for an invalid one.
     [[nodiscard]] std::string text(std::string_view attribute) const;
 };
 
 /// Without blanks at its ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
-/// The place among the words of what an attribute says; the first if the tag has none of that name. Throws VolumeFault
-/// for another word.
+/// Index of the attribute's value in the words; 0 if the tag does not have the attribute. Throws VolumeFault for any
+/// other word.
 [[nodiscard]] std::size_t choice(const Tag& tag, std::string_view attribute,
                                  std::initializer_list<std::string_view> words);
 
-/// Keeps views into the text. Members throw VolumeFault.
+/// Holds views into the text. Members throw VolumeFault.
 class DUSTBENCH_API XmlScan {
  public:
     explicit XmlScan(std::string_view text) : rest_(text) {}
 
     /// The text before the next tag; at the end of the text there is no tag.
     std::string_view next(std::optional<Tag>& tag);
-    /// What follows the last tag.
+    /// The text after the last tag.
     [[nodiscard]] std::string_view rest() const { return rest_; }
 
  private:

@@ -1,4 +1,4 @@
-// The car's shadow on reliefs that it passes: the depths of body and wheels as seen from the sun.
+// The car's shadow on reliefs: a shadow map of body and wheels as seen from the sun.
 //
 // Units: metres. Owns: the shadow map and the car's meshes. Threads: the OpenGL thread.
 #pragma once
@@ -15,10 +15,10 @@ namespace dustbench::relief {
 
 class CarShadow {
  public:
-    /// `scene`, which has a vehicle, outlives this.
+    /// `scene` must have a vehicle and must outlive this.
     CarShadow(gpu::Device& device, const scene::Scene& scene);
 
-    /// Draws the map of this moment.
+    /// Draws the shadow map for the current moment.
     void draw(const scene::SceneState& state);
 
     void bind(std::uint32_t unit) const { map_.depth().bind(unit); }

@@ -14,7 +14,7 @@ void main() {
     if (enter >= leave) discard;
 
     vec3 from = eye + enter * way, to = eye + leave * way;
-    if (leave == exits.z) to.z = way.z < 0.0 ? -plate.z : 0.0;  // exactly: the surface may lie at the bottom
+    if (leave == exits.z) to.z = way.z < 0.0 ? -plate.z : 0.0;  // exact, since the surface may be at the bottom
     float t = firstHit(toTexels(from), toTexels(to));
     if (t == missed || (t == 0.0 && enter == 0.0)) discard;  // an eye within the solid sees through it
     vec3 metres = from + t * (to - from);

@@ -6,13 +6,13 @@ uniform vec3 toSun;  // in the panel's frame
 uniform vec3 sun, ambient, groundLight, haze, plateColour, dustColour;
 uniform float hazePerMetre, pixelAngle;
 layout(binding = 0) uniform sampler2D colours;
-layout(binding = 1) uniform sampler2D marks;  // worn, laid on, hit under the paper's ageing
+layout(binding = 1) uniform sampler2D marks;  // worn, deposited, hit under the paper's ageing
 
 vec3 toTexels(vec3 metres) {
     return vec3((metres.xy / (2.0 * plate.xy) + 0.5) * texels - 0.5, -metres.z / plate.z);
 }
 
-// Slope in texels, by central differences, so that light does not show the patches.
+// Slope in texels, by central differences, so that the patches are not visible in the lighting.
 vec2 slopeOf(ivec2 texel) {
     return 0.5 * vec2(depthOf(texel + ivec2(1, 0)) - depthOf(texel - ivec2(1, 0)),
                       depthOf(texel + ivec2(0, 1)) - depthOf(texel - ivec2(0, 1)));
@@ -26,8 +26,8 @@ vec3 normalAt(vec2 at) {
     return normalize(vec3(slope * texels / (2.0 * plate.xy) * plate.z, 1.0));
 }
 
-// The level of detail by the distance: neighbouring pixels may show other parts of the relief, or nothing, so that their
-// differences say nothing.
+// The level of detail follows from the distance. Derivatives are unusable, because neighbouring pixels may show other
+// parts of the relief, or nothing.
 vec3 albedoAt(vec3 metres, vec3 normal) {
     vec2 where = (toTexels(metres).xy + 0.5) / texels;
     float slant = abs(dot(normalize(metres - eye), normal));
@@ -35,7 +35,7 @@ vec3 albedoAt(vec3 metres, vec3 normal) {
     float level = log2(max(perPixel.x, perPixel.y) / sqrt(max(slant, 0.05)));
     vec3 own = textureLod(colours, where, level).rgb;
     vec3 mark = textureLod(marks, where, level).rgb;
-    // Where it is broken off the plate itself shows, as at its rims; broken, it is paler.
+    // Where the surface is broken off, the plate's own colour shows, as at its rims, but paler.
     return mix(mix(mix(own, 1.2 * plateColour, mark.r), dustColour, mark.g), vec3(1.0), mark.b);
 }
 

@@ -68,7 +68,7 @@ float hitInPatch(ivec2 patchPlace, vec3 from, vec3 way, float begin, float end) 
     float base = depthOf(corner);
     float alongU = depthOf(corner + ivec2(1, 0)) - base, alongV = depthOf(corner + ivec2(0, 1)) - base;
     float twist = depthOf(corner + ivec2(1, 1)) - alongU - alongV - base;
-    vec3 start = from + begin * way - vec3(corner, 0.0);  // from the patch's own start, which preserves float precision
+    vec3 start = from + begin * way - vec3(corner, 0.0);  // relative to the patch, for float precision
     float a = -twist * way.x * way.y;
     float b = way.z - alongU * way.x - alongV * way.y - twist * (start.x * way.y + start.y * way.x);
     float c = start.z - base - alongU * start.x - alongV * start.y - twist * start.x * start.y;

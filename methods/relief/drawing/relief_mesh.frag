@@ -1,4 +1,4 @@
-// A relief as a mesh: the surface, then lower, upper, left and right rim, then the back.
+// A relief as a mesh: surface; lower, upper, left and right rim; back.
 in vec3 place;
 
 uniform ivec3 triangles;  // of the surface, of a horizontal rim, of a vertical rim

@@ -1,8 +1,8 @@
-// The triangles of a relief as a mesh, by the numbers of their corners; relief_mesh.vert places these.
+// The triangles of a relief as a mesh of vertex indices; relief_mesh.vert computes the positions.
 //
-// Corners: (columns + 2) × (rows + 2) of the surface, row by row, the outer ones at the rim; then as many at the
-// bottom. Triangles: two per patch, then lower, upper, left and right rim, then the back. Owns: the indices on the GPU.
-// Threads: the OpenGL thread.
+// Vertices: (columns + 2) × (rows + 2) of the surface, row by row, the outer ones at the rim; then the same number at
+// the bottom. Triangles: two per patch, then lower, upper, left and right rim, then the back. Owns: the indices on the
+// GPU. Threads: the OpenGL thread.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ class ReliefMesh {
 
     [[nodiscard]] const gpu::VertexArray& vertices() const { return vertices_; }
     [[nodiscard]] int indexCount() const { return indexCount_; }
-    /// Of the surface, of a horizontal and of a vertical rim.
+    /// Number of triangles of the surface, of a horizontal rim and of a vertical rim.
     [[nodiscard]] glm::ivec3 triangles() const { return triangles_; }
     [[nodiscard]] std::size_t bytes() const { return indices_.bytes(); }
 

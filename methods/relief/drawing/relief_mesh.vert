@@ -1,5 +1,5 @@
-// A relief as a mesh with a corner per texel, from the vertex number alone: the corners of the patches row by row, with one
-// more all around at the rim, and then the same again at the bottom.
+// A relief as a mesh with a vertex per texel, from the vertex number alone: the corners of the patches row by row, plus
+// one more all around at the rim, and then the same again at the bottom.
 uniform mat4 panelToClip;
 
 out vec3 place;  // in the panel's frame

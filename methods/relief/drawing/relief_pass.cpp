@@ -108,7 +108,7 @@ std::size_t ReliefPass::uploadTexels(const WornSurface& surface, const TexelRect
     return depths.size_bytes() + markValues_.size();
 }
 
-/// The rows of each level in which a block changed.
+/// The rows of each level that contain a changed block.
 std::size_t ReliefPass::uploadBlocks(const DepthPyramid& pyramid, const TexelRectangle& changed) {
     std::size_t bytes = 0;
     for (std::size_t k = 0; k < pyramid.levels().size(); ++k) {
@@ -141,7 +141,7 @@ void ReliefPass::setLight(const glm::dmat4& panelToWorld) {
 
 void ReliefPass::draw(const scene::View& view, const glm::dmat4& panelToWorld, const CarShadow* shadow) {
     if (style_.carShadow != (shadow != nullptr))
-        throw std::invalid_argument("ReliefPass: the car's shadow is given if and only if the style asks for it");
+        throw std::invalid_argument("ReliefPass: expected the car's shadow if and only if the style uses it");
     scene::View centred = view;
     centred.camera.eye = glm::dvec3(0);
     centred.camera.target -= view.camera.eye;

@@ -1,4 +1,4 @@
-// Draws one relief, with its depth, so that other things meet it: by ray casting, or as a mesh with a corner per texel.
+// Draws one relief and its depth, by ray casting or as a mesh with a vertex per texel.
 //
 // Units: m; colours: linear RGB. Owns: depths, pyramid, colours and marks, on the GPU. Threads: the OpenGL thread.
 // Source: Policarpo2005 (linear and binary search); the safe march is exact within each bilinear patch.
@@ -23,7 +23,7 @@ namespace dustbench::relief {
 
 enum class March {
     paper,  ///< linear, then binary steps: may miss thin features
-    safe,   ///< over blocks that the ray cannot hit, then patch by patch: misses nothing
+    safe,   ///< skips blocks that the ray cannot hit, then goes patch by patch: misses nothing
     mesh,   ///< no march: two triangles per patch, by the rasteriser; shadows by `safe`
 };
 inline constexpr Choices<March> marches{{"paper", March::paper}, {"safe", March::safe}, {"mesh", March::mesh}};
@@ -32,7 +32,7 @@ struct ReliefStyle {
     March march = March::safe;
     int linearSteps = 15, binarySteps = 5;  ///< of March::paper
     bool shadow = true;                     ///< the relief shades itself
-    bool carShadow = false;                 ///< the car throws its shadow on it
+    bool carShadow = false;                 ///< the car casts its shadow on it
     bool whiteHits = false;                 ///< the paper's mark of a hit
     /// Removed and deposited material of this share of the depth is shown at full strength.
     float visibleShare = 0.05f;
@@ -46,10 +46,10 @@ class ReliefPass {
     /// Copies the surface's depths and marks to the GPU. `changed`: the texels that differ from the last call. Returns
     /// how many bytes it copied.
     std::size_t upload(const WornSurface& surface, const DepthPyramid& pyramid, const TexelRectangle& changed);
-    /// Draws into the bound target, with depth test and depth writes. `shadow`: of a style with `carShadow`.
+    /// Draws into the bound target, with depth test and depth writes. `shadow`: only for a style with `carShadow`.
     void draw(const scene::View& view, const glm::dmat4& panelToWorld, const CarShadow* shadow = nullptr);
 
-    /// The colour of a texel as it is drawn, without light: linear RGB.
+    /// The unlit colour of a texel as drawn: linear RGB.
     [[nodiscard]] glm::vec3 colourOf(const WornSurface& surface, std::size_t texel) const;
     [[nodiscard]] std::size_t gpuBytes() const;
 

@@ -103,7 +103,7 @@ class ReliefPassTest : public testing::Test {
     struct Compared {
         int seen = 0, missed = 0, differ = 0;
     };
-    /// A millimetre of a metre, and as much again for a ray that grazes a hill's top, unless told.
+    /// Tolerance: a millimetre per metre, and the same again for a ray that grazes a hilltop, unless given.
     Compared compare(const scene::View& view, const ReliefStyle& style, double tolerance = 1e-3) {
         MemoryLedger ledger;
         const DepthMap map(*panel_.relief, ledger);
@@ -136,12 +136,12 @@ TEST_F(ReliefPassTest, TheSafeMarchShowsWhatTheOracleSeesFromAllSides) {
             panel_.relief = reliefOf(37, 29, needles, 9);
             const Compared found = compare(viewFrom(eye), {});
             EXPECT_GT(found.seen, 300) << eye.x << ' ' << eye.y << ' ' << eye.z;
-            // Rays along an edge of plate or hill may be rounded to either side.
+            // Rays along an edge of the plate or a hill may be rounded to either side.
             EXPECT_LE(found.missed + found.differ, found.seen / 100) << eye.x << ' ' << eye.y << ' ' << eye.z;
         }
 }
 
-// Along a wall from close by, triangles of the plate are cut: no pixel may be lost at their edges or get a wrong
+// Close to a wall and along it, triangles of the plate are clipped: no pixel may be lost at their edges or get a wrong
 // colour, such as that of a coarser mipmap.
 TEST_F(ReliefPassTest, TheMarchAndTheMeshShowTheSameWhereThePlateReachesBesideThePicture) {
     auto flat = std::make_shared<scene::Relief>();
@@ -170,8 +170,8 @@ TEST_F(ReliefPassTest, TheMarchAndTheMeshShowTheSameWhereThePlateReachesBesideTh
     }
 }
 
-// From 3 cm to 1 m before a wall, in all directions: most of the plate lies beside the picture or behind the eye, so
-// that its triangles are cut.
+// From 3 cm to 1 m in front of a wall, in all directions: most of the plate is outside the picture or behind the eye,
+// so its triangles are clipped.
 TEST_F(ReliefPassTest, NoPixelIsLostWhereThePlateReachesBehindTheEye) {
     auto stripes = std::make_shared<scene::Relief>();
     stripes->columns = stripes->rows = 128;
@@ -194,7 +194,7 @@ TEST_F(ReliefPassTest, NoPixelIsLostWhereThePlateReachesBehindTheEye) {
     EXPECT_LE(all.missed + all.differ, all.seen / 10'000);
 }
 
-// Within the plate: in a pit one sees its floor and walls; within the solid, through it.
+// Within the plate: a camera in a pit sees its floor and walls; within the solid it sees through it.
 TEST_F(ReliefPassTest, AnEyeWithinThePlateSeesThePitItIsIn) {
     auto pit = std::make_shared<scene::Relief>();
     pit->columns = pit->rows = 40;
@@ -213,7 +213,7 @@ TEST_F(ReliefPassTest, AnEyeWithinThePlateSeesThePitItIsIn) {
     for (const float depth : inside.depth) ASSERT_EQ(depth, 0.0f);
 }
 
-// Wear in one corner after another: the picture is that of a pass that gets the whole surface anew.
+// Wear in one corner after another: the picture equals that of a new pass that gets the whole surface.
 TEST_F(ReliefPassTest, UploadsOfWhatChangedShowTheWholeSurfaceAndAreSmall) {
     panel_.relief = reliefOf(64, 48, false, 6);
     for (const March march : {March::safe, March::paper}) {
@@ -286,7 +286,7 @@ TEST_F(ReliefPassTest, TheMeshShowsTheSurfaceWithItsRimAndBack) {
         const Compared found = compare(view, mesh, 0.01);
         ASSERT_GT(found.seen, 300);
         EXPECT_LE(found.missed + found.differ, found.seen * 3 / 100) << eye.x << ' ' << eye.y << ' ' << eye.z;
-        // And it has the colours of the march.
+        // The colours are those of the march.
         const Shown marched = show(view, ReliefStyle{}), drawn = show(view, mesh);
         int different = 0;
         for (std::size_t i = 0; i < drawn.colour.pixels.size(); ++i)
@@ -355,7 +355,7 @@ TEST_F(ReliefPassTest, TheCarShadesWhatIsBehindItAndNothingElse) {
     };
     const float lit = lightAt(0.5, {0.6f, 0.4f});
     EXPECT_LT(lightAt(0.5, {0, -0.1f}), 0.6f * lit);
-    EXPECT_NEAR(lightAt(0.5, {-0.25f, 0.25f}), lit, 1e-3f);  // beside the triangle
+    EXPECT_NEAR(lightAt(0.5, {-0.25f, 0.25f}), lit, 1e-3f);  // next to the triangle
     EXPECT_NEAR(lightAt(-0.5, {0, -0.1f}), lit, 1e-3f);      // the car is behind the panel
 }
 

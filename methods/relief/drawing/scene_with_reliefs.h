@@ -1,5 +1,4 @@
-// A picture of the reliefs and what is in front of them, with its own depth: the scene's, with the reliefs drawn into
-// it.
+// A picture of the reliefs and the dust in front of them. Its depth is the scene's, with the reliefs drawn into it.
 //
 // Owns: colour and depth. Threads: the OpenGL thread.
 #pragma once
@@ -19,7 +18,7 @@ class SceneWithReliefs {
 
     /// Clears the colour, copies the scene's depth and binds both for opaque drawing.
     void begin(const gpu::Texture& sceneDepth);
-    /// The target for translucent drawing over what was drawn since `begin`.
+    /// The target for translucent drawing over everything drawn since `begin`.
     [[nodiscard]] const gpu::Layer& layer() const { return layer_; }
     /// Replaces the colour of `result`, which has the same size.
     void copyTo(gpu::Layer& result);

@@ -1,6 +1,6 @@
-// One step of the fixed law for particles between the face and the highest place of the surface, where they meet
-// nothing: most particles, and the cheapest. Place and age, and velocity, are four lanes each; the numbers are those of
-// `moved` (relief_motion.h).
+// One step of the fixed law for particles between the face and the highest point of the surface, which cannot hit
+// anything: most particles, and the cheapest. Position with age, and velocity, are four lanes each; the results equal
+// those of `moved` (relief_motion.h).
 //
 // Units: m, m/s; ages in steps. Frame: the panel's. Threads: pure.
 #pragma once
@@ -17,7 +17,7 @@ namespace dustbench::relief {
 
 class OpenSpace {
  public:
-    /// `within`: half the plate's size, a little less; `deepest`: the z above which the surface is not.
+    /// `within`: slightly less than half the plate's size; `deepest`: the z above which there is no surface.
     OpenSpace(const StepSettings& settings, const glm::vec2& within, float deepest)
         : stepSeconds_(settings.stepSeconds),
           fall_(lanesOf(settings.gravity * (0.5f * settings.stepSeconds * settings.stepSeconds), 1)),
@@ -26,7 +26,7 @@ class OpenSpace {
           high_{within.x, within.y, 0, settings.maximumAgeSteps},
           lowBefore_{-endless, -endless, deepest, -endless} {}
 
-    /// False, and nothing is changed, if the particle may leave this space, or reaches its maximum age.
+    /// Returns false and changes nothing if the particle may leave this space or reaches its maximum age.
     [[gnu::always_inline]] bool step(glm::vec4& place, glm::vec4& velocity) const {
         Float4 from, speed;
         std::memcpy(&from, &place, sizeof from);

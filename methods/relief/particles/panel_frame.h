@@ -1,6 +1,6 @@
 // Transforms positions and velocities between the world and the frame of a panel, which may move and turn.
 //
-// Units: m, m/s. Threads: pure. Source: Bergeron, 5 (named there as future work).
+// Units: m, m/s. Threads: pure. Source: Bergeron, 5 (as future work).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,7 +9,7 @@
 
 namespace dustbench::relief {
 
-/// Place and velocity in one frame.
+/// Position and velocity in one frame.
 struct Moving {
     glm::dvec3 place{0}, velocity{0};
 };

@@ -14,9 +14,9 @@ namespace {
 constexpr std::size_t blockSize = 4096;
 constexpr std::size_t fatesTogether = 64;
 constexpr float nearEdge = 0.01f;     // texels
-constexpr float depthMargin = 1e-5f;  // of the depth: that of floats, and of blocks, which are rounded
+constexpr float depthMargin = 1e-5f;  // share of the depth, for the rounding of floats and of blocks
 
-/// Returns the share of the path at which it leaves the plate, by a rim or by the face; 1 or more if it does not.
+/// Returns the share of the path at which it leaves the plate through a rim or the face; 1 or more if it does not.
 double exitShare(const glm::dvec3& from, const glm::dvec3& way, const glm::dvec2& halfSize) {
     double share = HUGE_VAL;
     for (int axis = 0; axis < 2; ++axis)
@@ -61,10 +61,11 @@ ArrayMover::ArrayMover(const scene::Panel& panel)
       patchScale_(texels_.toTexels(glm::dvec3(1)) - texels_.toTexels(glm::dvec3(0))),
       patchOffset_(texels_.toTexels(glm::dvec3(0)) + glm::dvec3(1, 1, 0)) {}
 
-/// True if a way surely stays on the plate and above the surface: both ends lie in one block, above its nearest depth.
+/// True if a path certainly stays on the plate and above the surface: both ends are in one block, above its minimum
+/// depth.
 bool ArrayMover::staysAbove(const glm::vec3& from, const glm::vec3& to, const DepthPyramid& pyramid) const {
     if (!(std::abs(to.x) < within_.x && std::abs(to.y) < within_.y && to.z < 0)) return false;
-    // Floats err by less than a hundredth of a texel: patches at both sides of that are looked at.
+    // Floats are accurate to a hundredth of a texel: near a border, the patches on both sides are checked.
     const glm::vec3 a = from * patchScale_ + patchOffset_, b = to * patchScale_ + patchOffset_;
     const glm::ivec2 low(glm::max(glm::min(a, b) - nearEdge, glm::vec3(0)));
     const glm::ivec2 high(glm::max(a, b) + nearEdge);
@@ -99,7 +100,7 @@ Fate ArrayMover::advance(glm::vec4& place, glm::vec4& velocity, const DepthMap& 
     return exit < 1 || place.w >= settings.maximumAgeSteps ? Fate::gone : Fate::lives;
 }
 
-/// The z above which nothing is, with a margin; the face where that is not known or another law moves.
+/// The z above which there is no surface, with a margin; the face if that is unknown or another law applies.
 float ArrayMover::openAbove(const StepSettings& settings) const {
     if (!settings.pyramid || settings.law != MotionLaw::fixed) return 0;
     const float nearest = settings.pyramid->blocks().back() - 2 * depthMargin;
@@ -124,7 +125,7 @@ void ReliefParticles::step(Mover& mover, const DepthMap& surface, const StepSett
 
 namespace {
 
-/// Whole groups of living particles are passed over.
+/// Skips whole groups of living particles.
 std::size_t firstNotLiving(std::span<const Fate> fates) {
     std::size_t first = 0;
     for (; first + fatesTogether <= fates.size(); first += fatesTogether) {
@@ -138,7 +139,7 @@ std::size_t firstNotLiving(std::span<const Fate> fates) {
 
 }  // namespace
 
-/// Lists the hits and closes the gaps of those that ended.
+/// Lists the hits and closes the gaps of particles that ended.
 void ReliefParticles::settle(const DepthMap& surface) {
     hits_.clear();
     std::size_t kept = firstNotLiving(fates_);

@@ -1,8 +1,8 @@
-// The particles within one relief: moved, collided with its surface, aged.
+// The particles within one relief: they move, age and collide with its surface.
 //
 // A particle lives from its entry through the face until it hits the surface, leaves the plate or reaches its maximum
-// age. Columns are those of the paper's two textures: place and age, velocity. A mover moves them: this one's own on
-// the CPU, or a shader (particles_gl/texture_mover.h).
+// age. The columns are those of the paper's two textures: position and age, and velocity. They are moved on the CPU, or
+// by a shader (particles_gl/texture_mover.h).
 //
 // Units: m, m/s; ages in steps. Frame: the panel's. Owns: its columns, booked on a ledger.
 // Threads: `step` uses the current oneTBB arena; results do not depend on the number of threads.
@@ -55,29 +55,29 @@ struct StepSettings {
     glm::vec3 gravity{0, -9.8f, 0};  ///< m/s²
     float stepSeconds = 1.0f / 60;
     float maximumAgeSteps = 600;
-    /// Of the surface as it is; null: each particle is collided patch by patch, with the same result.
+    /// Pyramid of the current surface; null: each particle is collided patch by patch, with the same result.
     const DepthPyramid* pyramid = nullptr;
 };
 
 enum class Fate : std::uint8_t { lives, hit, gone };
 
-/// What a step changes, one entry per particle. A particle that hits ends at its hit; its velocity is that of the
-/// step's end.
+/// Data that a step changes, one entry per particle. A particle that hits ends at its hit; its velocity is that at the
+/// end of the step.
 struct MovingColumns {
     std::span<glm::vec4> places;      ///< w: age in steps
     std::span<glm::vec4> velocities;  ///< w: not used
-    std::span<Fate> fates;            ///< written only
+    std::span<Fate> fates;            ///< output only
 };
 
-/// Moves particles by one step, collides them and says what becomes of each.
+/// Moves particles by one step, collides them and determines the fate of each.
 class Mover {
  public:
     virtual ~Mover() = default;
-    /// The columns hold those that lived after the last call, in their order, and then the newborn.
+    /// The columns contain the particles alive after the last call, in order, followed by the newborn ones.
     virtual void move(const MovingColumns& columns, const DepthMap& surface, const StepSettings& settings) = 0;
 };
 
-/// On the CPU: the oracle of others.
+/// The CPU mover, which is the reference implementation.
 class ArrayMover final : public Mover {
  public:
     explicit ArrayMover(const scene::Panel& panel);
@@ -91,7 +91,7 @@ class ArrayMover final : public Mover {
 
     glm::dvec2 halfSize_;
     TexelFrame texels_;
-    glm::vec2 within_;                    ///< half the size, a little less: for floats
+    glm::vec2 within_;                    ///< slightly less than half the size, for rounding
     glm::vec3 patchScale_, patchOffset_;  ///< from metres to patches and depth
 };
 
@@ -101,7 +101,8 @@ class ReliefParticles {
 
     /// Adds a newborn at its entry; it moves from the next step on.
     void add(const Motion& motion, const ParticleLook& look, std::uint64_t serial);
-    /// Moves all, collides each along its whole way and removes what has ended. Hits are in the order of the particles.
+    /// Moves all particles, collides each along its whole path and removes those that ended. Hits are in the order of
+    /// the particles.
     void step(const DepthMap& surface, const StepSettings& settings) { step(arrays_, surface, settings); }
     /// The same by another mover: always the same one from the first step on.
     void step(Mover& mover, const DepthMap& surface, const StepSettings& settings);

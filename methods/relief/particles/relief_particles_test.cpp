@@ -115,7 +115,8 @@ TEST_F(ReliefParticlesTest, NothingTunnelsAtAnySpeed) {
     EXPECT_EQ(downwards, 0u);  // all of them fly within 20 cm of the middle, so each one hits
 }
 
-// Speeds from a thousandth of a texel a step to a hundred plates, particles near the surface and far, along the rim.
+// Speeds from a thousandth of a texel to a hundred plates per step, with particles near the surface, far from it and
+// along the rim.
 TEST_F(ReliefParticlesTest, ThePyramidChangesNothingButTheTime) {
     for (const unsigned seed : {1u, 2u, 3u}) {
         const scene::Panel panel = panelOf(1.7, 0.9, 0.2, 53, 38, 0, seed);

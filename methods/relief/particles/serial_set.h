@@ -1,7 +1,7 @@
 // A set of serials of particles. Serials increase with time and particles live for a limited time, so the set is a
 // moving window of bits.
 //
-// Owns: its bits, booked on a ledger. Threads: any thread may ask; one writer.
+// Owns: its bits, booked on a ledger. Threads: any thread may read; one writer.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class SerialSet {
         if (word >= words_.size()) words_.resize(word + 1, 0);
         words_[word] |= std::uint64_t{1} << ((serial - first_) % 64);
     }
-    /// Drops serials below `oldest`, whose particles are dead; keeps up to 63 of them.
+    /// Drops serials below `oldest`, whose particles are dead; up to 63 of them may remain.
     void forgetBelow(std::uint64_t oldest) {
         if (oldest < first_ + 64) return;
         const std::uint64_t words = std::min<std::uint64_t>((oldest - first_) / 64, words_.size());

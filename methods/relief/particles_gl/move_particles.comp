@@ -1,5 +1,5 @@
-// One step of each particle of a relief: motion, collision along the way, age. particles/relief_particles.cpp is the
-// oracle; `precise` and double keep this one's numbers the same.
+// One step of each particle of a relief: motion, collision along the path, age. The reference implementation is
+// particles/relief_particles.cpp; `precise` and double keep the results the same.
 layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform sampler2D places;      // x, y, z, age in steps
@@ -27,7 +27,7 @@ double depthOf(ivec2 texel) {
     return double(depths[inside.y * size.x + inside.x]) / bottom;
 }
 
-// The share of the way at which it leaves the plate: by a rim or by the face.
+// The share of the path at which it leaves the plate, through a rim or the face.
 double exitShare(dvec3 from, dvec3 way) {
     double share = 1e30LF;
     for (int axis = 0; axis < 2; ++axis)
@@ -68,7 +68,7 @@ dvec3 gap(ivec2 corner, dvec3 from, dvec3 way) {
                  start.z - base - alongU * start.x - alongV * start.y - twist * start.x * start.y);
 }
 
-// The first share of the way at which the surface is met, patch by patch; `never` if it is not.
+// The first share of the path at which it meets the surface, patch by patch; `never` if it does not.
 double firstHit(dvec3 from, dvec3 to) {
     dvec3 way = to - from;
     ivec2 cell = ivec2(floor(from.xy)), stepTo;

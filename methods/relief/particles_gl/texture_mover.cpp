@@ -12,7 +12,7 @@ namespace {
 constexpr int stateColumns = 1024;
 constexpr std::size_t groupSize = 64;
 
-/// As the shader's block has it.
+/// Layout of the shader's block.
 struct Plate {
     glm::dvec4 halfSize, scale, offset;
 };
@@ -63,7 +63,7 @@ void TextureMover::makeRoom(std::size_t particles) {
         *texture = gpu::Texture::make2D(device_, "relief particle state", gpu::Format::rgba32F, stateColumns, rows);
 }
 
-/// Where each particle comes from: a texel of the old state, or −1 − k for the k-th of the newborn.
+/// The source of each particle: a texel of the old state, or −1 − k for the k-th newborn one.
 void TextureMover::writeSources(const MovingColumns& columns) {
     std::vector<glm::vec4> newborns;
     for (std::size_t i = living_.size(); i < columns.places.size(); ++i) {

@@ -1,9 +1,9 @@
-// The state of particles in textures, as in the paper: one of place and age, one of velocity, each RGBA32F and double,
-// so that a shader reads the old pair and writes the new one.
+// The state of particles in textures, as in the paper: one for position and age, one for velocity. Both are RGBA32F and
+// double-buffered: a shader reads the old pair and writes the new one.
 //
-// Texel n holds particle n of the columns. The shader reads it from where it was in the old pair, or from the list of
-// the newborn: gaps close on the way, and both movers keep the same order. The collision is that of surface_hit.h, in
-// double precision, step by step.
+// Texel n holds particle n of the columns. The shader reads it from its previous texel in the old pair, or from the
+// list of newborn particles. This closes gaps, and both movers keep the same order. The collision follows surface_hit.h
+// step by step, in double precision.
 //
 // Units, frame: relief_particles.h. Owns: textures and lists on the GPU. Threads: the OpenGL thread.
 // Source: Bergeron, 3.1 and 3.2. Departs: the paper draws into the textures; a compute shader writes them here.
@@ -26,9 +26,9 @@ class TextureMover final : public Mover {
  public:
     TextureMover(gpu::Device& device, const scene::Panel& panel, const DepthMap& surface);
 
-    /// Copies the texels that wear has changed since the last call.
+    /// Copies the texels changed by wear since the last call.
     void upload(const DepthMap& surface, const TexelRectangle& changed);
-    /// Moves the textures' particles and copies them into the columns. `surface` is what was uploaded last.
+    /// Moves the textures' particles and copies them into the columns. `surface` must be the one uploaded last.
     void move(const MovingColumns& columns, const DepthMap& surface, const StepSettings& settings) override;
 
     [[nodiscard]] std::size_t gpuBytes() const;
@@ -46,7 +46,7 @@ class TextureMover final : public Mover {
     gpu::Program program_;
     gpu::Buffer plate_, depths_, sources_, newborns_;
     State now_, next_;
-    std::vector<std::int32_t> living_;  ///< texels of those that live, in order
+    std::vector<std::int32_t> living_;  ///< texels of the living particles, in order
 };
 
 }  // namespace dustbench::relief

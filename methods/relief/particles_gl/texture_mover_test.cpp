@@ -1,4 +1,4 @@
-// The shader's particles against those of the CPU.
+// Compares the shader's particles with those of the CPU.
 #include "methods/relief/particles_gl/texture_mover.h"
 
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ TEST_P(TextureMoverTest, EndsWhereTheOracleDoes) {
         ASSERT_EQ(arrays_.hits().size(), textures_.hits().size()) << step;
         for (std::size_t i = 0; i < arrays_.size(); ++i) {
             const glm::vec4 a = arrays_.places()[i], b = textures_.places()[i];
-            // An ulp of what is added up: compilers may keep a fused product.
+            // An ulp of the summands: compilers may keep a fused product.
             ASSERT_LE(glm::distance(a, b), 3e-7f * (1 + glm::length(a))) << step << ' ' << i;
             ASSERT_LE(glm::distance(arrays_.velocities()[i], textures_.velocities()[i]),
                       3e-7f * (1 + glm::length(arrays_.velocities()[i])));

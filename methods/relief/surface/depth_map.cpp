@@ -6,7 +6,7 @@
 namespace dustbench::relief {
 namespace {
 
-/// The corners of the patch that contains (u, v), and the place in it.
+/// The corners of the patch that contains (u, v), and the position in it.
 struct Patch {
     double lowerLeft, lowerRight, upperLeft, upperRight;
     double s, t;

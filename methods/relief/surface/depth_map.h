@@ -1,4 +1,4 @@
-// The depths of a relief in fixed point: what particles hit, what ageing changes and what is drawn.
+// The depths of a relief in fixed point, for collision, ageing and drawing.
 //
 //     D(u, v) = bilinear interpolation of the texels' depths, clamped at the rim
 //

@@ -1,4 +1,4 @@
-// The minimum depth within each block of a relief, by halving: blocks that a march may skip without missing a hit.
+// A pyramid of the minimum depth in each block of a relief, so that a march can skip blocks without missing a hit.
 //
 // Patch (i, j) lies between the texels (i − 1, j − 1) and (i, j), clamped at the rim: a relief of n texels has n + 1
 // patches a side. A block of level k holds 2ᵏ × 2ᵏ patches; the last level has one block.
@@ -23,7 +23,7 @@ class DepthPyramid {
 
     DepthPyramid(const DepthMap& map, MemoryLedger& ledger);
 
-    /// Brings the blocks over the changed texels up to date.
+    /// Updates the blocks over the changed texels.
     void update(const DepthMap& map, const TexelRectangle& changed);
 
     /// The blocks of a level over texels: as columns and rows of that level.

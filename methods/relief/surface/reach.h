@@ -1,4 +1,4 @@
-// Which texels a hit may change.
+// The texels that a hit may change.
 //
 // Units: texels. Threads: pure.
 #pragma once
@@ -36,14 +36,14 @@ namespace dustbench::relief {
             clamped(std::floor(u + reach) + 1, map.columns()), clamped(std::floor(v + reach) + 1, map.rows())};
 }
 
-/// The texel nearest to a hit; that behind the last if it lies beside the map.
+/// The texel nearest to a hit; one past the last if the hit is outside the map.
 [[nodiscard]] inline std::size_t nearestTexel(const Impact& impact, const DepthMap& map) {
     const int column = nearestTo(impact.u), row = nearestTo(impact.v);
     const bool beside = column < 0 || row < 0 || column >= map.columns() || row >= map.rows();
     return beside ? map.size() : map.texel(column, row);
 }
 
-/// The reaches of some hits, for a gathering texel to compare many at a time.
+/// The reaches of several hits, so that a gathering texel can compare many at once.
 class Reaches {
  public:
     static constexpr std::size_t capacity = 1024, compared = 64;
@@ -61,7 +61,7 @@ class Reaches {
     [[nodiscard]] bool holds(std::size_t k, int column, int row) const {
         return (firstColumn_[k] <= column) & (column < endColumn_[k]) & (firstRow_[k] <= row) & (row < endRow_[k]);
     }
-    /// True if one of the hits from `first` to `first + compared` does.
+    /// True if one of the hits from `first` to `first + compared` may change this texel.
     [[nodiscard]] bool anyHolds(std::size_t first, int column, int row) const {
         int any = 0;
         for (std::size_t k = first; k < first + compared; ++k) any |= holds(k, column, row) ? 1 : 0;

@@ -8,13 +8,13 @@
 namespace dustbench::relief {
 namespace {
 
-constexpr double slack = 1e-3;  // of tan φ: moves end this far below it, so that they are few
+constexpr double slack = 1e-3;  // relative to tan φ: moves end this far below it, which reduces their number
 
 struct Place {
     int column, row;
 };
 
-/// The lower of a texel's neighbours along one axis, and how many steps lower it is; 0: none is lower.
+/// The lower of a texel's two neighbours along one axis, and how many steps lower it is; 0: neither is lower.
 struct Lower {
     Place place;
     std::int64_t drop = 0;
@@ -63,7 +63,7 @@ class Sliding {
         return map_.depths()[map_.texel(place.column, place.row)];
     }
 
-    /// Gives what is too steep at a texel to its lower neighbours. Returns the texels that changed.
+    /// Moves excess material of a texel to its lower neighbours. Returns the texels that changed.
     TexelRectangle settle(const Place& place) {
         const Lower u = lowerAlong(place, 0), v = lowerAlong(place, 1);
         const double gu = perStep_.x * static_cast<double>(u.drop), gv = perStep_.y * static_cast<double>(v.drop);

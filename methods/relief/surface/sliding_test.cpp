@@ -26,7 +26,7 @@ void lay(WornSurface& surface, float u, float v, float radius, std::uint32_t dep
     surface.layOn(repose);
 }
 
-/// The steepest slope of texels on which something lies.
+/// The steepest slope of texels with a deposit.
 double steepest(const WornSurface& surface, const Repose& repose) {
     double most = 0;
     for (int row = 0; row < surface.depths().rows(); ++row)
@@ -108,7 +108,7 @@ TEST(Sliding, TheSurfaceItselfStays) {
     MemoryLedger ledger;
     const scene::Relief relief = reliefOf(30, 30, 0, 4);
     WornSurface surface(relief, ledger);
-    const Repose repose{0.01, {0.01, 0.01}, 0.5};  // all of it is steeper
+    const Repose repose{0.01, {0.01, 0.01}, 0.5};  // all slopes are steeper
     for (int n = 0; n < 20; ++n) lay(surface, 15, 15, 3, DepthMap::bottom / 50, repose);
     const DepthMap fresh(relief, ledger);
     for (std::size_t i = 0; i < fresh.size(); ++i)

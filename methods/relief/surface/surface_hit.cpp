@@ -46,7 +46,7 @@ std::optional<double> firstNotNegative(const glm::dvec3& quadratic, double begin
     return first;
 }
 
-/// Steps through the unit cells along one axis: where the line leaves the current cell, and to which side.
+/// Steps through the unit cells along one axis: the point where the line leaves the current cell, and the side.
 struct Axis {
     Axis(double from, double way)
         : cell(static_cast<int>(std::floor(from))),

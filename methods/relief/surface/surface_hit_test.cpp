@@ -32,7 +32,7 @@ std::optional<double> marched(const DepthMap& map, const glm::dvec3& from, const
     return std::nullopt;
 }
 
-// The march may step over a sliver of the surface and then hits later or not at all; it never hits earlier.
+// The march may step over a sliver of the surface and then hit later or not at all; it never hits earlier.
 TEST_F(SurfaceHitTest, AMillionRandomSegmentsMeetTheSurfaceWhereAMarchDoesOrBefore) {
     const DepthMap map(randomGreyRelief(23, 17, 5), ledger_);
     std::mt19937 random(7);

@@ -16,10 +16,10 @@ using lanes::Float4;
 using lanes::Int4;
 using lanes::Unsigned4;
 
-constexpr std::size_t spareTexels = 3;  // four are written at a time, from any on
+constexpr std::size_t spareTexels = 3;  // four are written at a time, starting at any texel
 constexpr int tileTexels = 64;
 constexpr std::size_t fewHits = 1000;
-constexpr std::size_t nearTexels = std::size_t{1} << 17;  // with two columns of them 1 MiB
+constexpr std::size_t nearTexels = std::size_t{1} << 17;  // two columns of them take 1 MiB
 
 /// changeWithin (impact.h) of four columns at once. `squaredDv`: (row − v)².
 [[gnu::always_inline]] inline Int4 changesWithin(const Impact& impact, const Int4& columns, float squaredDv) {
@@ -137,7 +137,7 @@ void WornSurface::scatter(std::span<const Impact> impacts) {
     waiting_ = joined(waiting_, dots);
 }
 
-/// Sorting costs as much as a few texels that are far away: many pits on a surface larger than a cache.
+/// Sorting costs as much as a few distant texels, so it pays off for many pits on a surface larger than a cache.
 bool WornSurface::isWorthSorting(std::span<const Impact> impacts) const {
     return depths_.size() > nearTexels && impacts.size() >= fewHits && impacts.front().radiusTexels > 0;
 }

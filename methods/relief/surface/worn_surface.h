@@ -3,7 +3,7 @@
 // Two algorithms give the same bits. `gather` visits each texel and tests every hit, as in the paper; its cost is
 // texels × hits. `scatter` visits each hit and writes the texels within its reach, four of a row at a time.
 //
-// Volumes: in steps of DepthMap times one texel. removed, laid on and present volume obey, exactly,
+// Volumes: in steps of DepthMap times one texel. Exactly:
 //
 //     present = initial − takenOff + laidOn
 //
@@ -31,7 +31,7 @@ class WornSurface {
 
     /// Removes the pending amount, down to the bottom: first deposited material, then the surface itself.
     void takeOff();
-    /// Lays on what is pending, up to the face. With `repose` it slides down where it lies steeper.
+    /// Deposits the pending amount, up to the face. With `repose` it slides down where it is steeper.
     void layOn(const std::optional<Repose>& repose = {});
 
     [[nodiscard]] const DepthMap& depths() const { return depths_; }

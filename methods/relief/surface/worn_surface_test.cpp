@@ -52,7 +52,7 @@ TEST(WornSurface, GatherAndScatterGiveTheSameBitsInAnyOrderOfHits) {
     }
 }
 
-// Many pits on a large surface are written in the order of tiles; some lie beside the map or at its rim.
+// Many pits on a large surface are written in the order of tiles; some are outside the map or at its rim.
 TEST(WornSurface, PitsInTheOrderOfTilesGiveTheSameBits) {
     const scene::Relief relief = randomDepths(470, 300, 5);
     MemoryLedger ledger;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t exponent = 0x7f800000u;
 
-/// Whether all are 0, of either sign.
+/// Whether all are 0 or −0.
 bool areZero(std::span<const float> numbers) {
     std::uint32_t bits = 0;
     for (const float number : numbers) bits |= std::bit_cast<std::uint32_t>(number) << 1;
@@ -72,11 +72,11 @@ void BrickReader::begin(const volumes::GridPlace& place) {
             throw refused(fmt::format("it has {} cells along an axis, allowed: {} (limit of sparse volumes)",
                                       place_.cells[axis], files::limits::sparseVolumeEdge));
     if (!lead_) return;
-    // Room for all of the box, and for a series that wanders.
+    // Leaves room for the whole box, and for a series that moves.
     constexpr double farthest = (farthestBrick - 4) * brickEdge - files::limits::sparseVolumeEdge;
     const glm::dvec3 apart = glm::abs(place_.origin - lead_->origin) / lead_->spacing;
     if (!(std::max({apart.x, apart.y, apart.z}) < farthest))
-        throw refused(fmt::format("it lies {:.3g} cells from the first of its series, allowed: {:.3g}",
+        throw refused(fmt::format("it is {:.3g} cells away from the first of its series, allowed: {:.3g}",
                                   std::max({apart.x, apart.y, apart.z}), farthest));
     first_ = volumes::firstCell(*lead_, place_) + leadCell;
 }
@@ -89,7 +89,7 @@ bool BrickReader::beginField(std::string_view field) {
 void BrickReader::take(std::span<const float> numbers) {
     while (!numbers.empty()) {
         const std::size_t count = std::min(numbers.size(), static_cast<std::size_t>(stored_.cells.x - next_.x));
-        // A row along x stays one if the grid is turned.
+        // A row along x stays one if the grid is rotated.
         const glm::ivec3 turned = setup_.zUp ? glm::ivec3(next_.x, next_.z, stored_.cells.y - 1 - next_.y) : next_;
         if (rows_)
             takeTemperatures(numbers.first(count), first_ + turned);
@@ -107,7 +107,7 @@ void BrickReader::take(std::span<const float> numbers) {
 
 void BrickReader::takeDensities(std::span<const float> row, glm::ivec3 first) {
     if (areZero(row)) return;
-    if (!areFinite(row)) throw refused("it has a density that is no number");
+    if (!areFinite(row)) throw refused("it has a density that is not a number");
     Bricks::Values* values = nullptr;
     glm::ivec3 last(1 << 30);
     for (std::size_t i = 0; i < row.size(); ++i) {
@@ -127,7 +127,7 @@ void BrickReader::takeDensities(std::span<const float> row, glm::ivec3 first) {
 }
 
 void BrickReader::takeTemperatures(std::span<const float> row, glm::ivec3 first) {
-    if (!areFinite(row)) throw refused("it has a temperature that is no number");
+    if (!areFinite(row)) throw refused("it has a temperature that is not a number");
     const std::vector<int>* const kept = rows_->find(first.y >> 3, first.z >> 3);
     if (!kept) return;
     const int end = first.x + static_cast<int>(row.size());

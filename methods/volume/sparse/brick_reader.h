@@ -1,7 +1,8 @@
-// Keeps the bricks of a volume that have density while its file is read, and the temperatures that are seen with them.
+// Reads a volume's file and keeps only the bricks with density, and the temperatures that are visible with them.
 //
-// Cells come out on the lattice of a series, +Y up. Memory grows with what has density alone. Units and frame: the
-// file's own, but for places, which are in the world. Source: Museth2013. Departs: the file is read cell by cell.
+// Cells are placed on the lattice of a series, +Y up. Memory grows with the number of bricks with density. Units and
+// frame: the file's, except for places, which are in the world. Source: Museth2013. Departs: the file is read cell by
+// cell.
 #pragma once
 
 #include <filesystem>
@@ -16,15 +17,15 @@
 
 namespace dustbench::volume {
 
-/// The first cell of a series' first file on the lattice: a brick further than 0, so that what samples reach below it
-/// is in the same nodes of a tree.
+/// The first cell of a series' first file on the lattice: one brick above 0, so that samples that reach below it stay
+/// in the same nodes of a tree.
 inline constexpr int leadCell = brickEdge;
 
-/// Bricks to keep, by their row: the places along x of those at (y, z), ascending.
+/// Bricks to keep, by row: the x positions of those at (y, z), ascending.
 class BrickRows {
  public:
     void add(const glm::ivec3& brick) { rows_[keyOf({0, brick.y, brick.z})].push_back(brick.x); }
-    /// Sorts; comes after all of add().
+    /// Sorts; call this after all calls of add().
     void close();
     /// Null if there are none.
     [[nodiscard]] const std::vector<int>* find(int y, int z) const {
@@ -38,12 +39,12 @@ class BrickRows {
 
 class BrickReader final : public volumes::VolumeSink {
  public:
-    /// `lead`: the place of the first file in the world; null: this is the first.
+    /// `lead`: the place of the first file in the world; null for the first file itself.
     BrickReader(const std::filesystem::path& file, const volumes::VolumeSetup& setup, const volumes::GridPlace* lead);
 
-    /// Reads the densities. Throws InputError as readVolume() does, and if more bricks have density than may be.
+    /// Reads the densities. Throws InputError as readVolume() does, and if too many bricks have density.
     void readDensities();
-    /// Reads the temperatures of these bricks, which are all kept.
+    /// Reads the temperatures of these bricks and keeps all of them.
     void readTemperatures(const BrickRows& rows);
 
     /// In the world.
@@ -63,10 +64,10 @@ class BrickReader final : public volumes::VolumeSink {
     std::filesystem::path file_;
     const volumes::VolumeSetup& setup_;
     const volumes::GridPlace* lead_;
-    const BrickRows* rows_ = nullptr;  ///< of temperatures; null: densities are read
+    const BrickRows* rows_ = nullptr;  ///< bricks whose temperatures are read; null: densities are read
     volumes::GridPlace stored_, place_;
     glm::ivec3 first_{leadCell};
-    glm::ivec3 next_{0};  ///< the cell that comes next, as the file is stored
+    glm::ivec3 next_{0};  ///< the next cell, in the file's order
     Bricks bricks_;
     float lowest_ = 0, highest_ = 0;
 };

@@ -18,7 +18,7 @@ CellMask cellsWithDensity(const Bricks::Values& values) {
     return mask;
 }
 
-/// Sets the cells that are one below, along an axis, those that are set; `above` is the brick there.
+/// Also sets the cells directly below the set ones along an axis; `above` is the next brick upwards.
 CellMask spreadX(const CellMask& mask, const CellMask& above) {
     CellMask spread = mask;
     for (std::size_t x = 0; x < 8; ++x) spread[x] |= x < 7 ? mask[x + 1] : above[0];
@@ -39,7 +39,7 @@ bool any(const CellMask& mask) {
     return std::ranges::any_of(mask, [](std::uint64_t word) { return word != 0; });
 }
 
-/// The bricks of a tree for these densities; `source` is a leaf's place in `order`, which is filled in.
+/// The bricks of a tree for these densities. Fills `order`; a leaf's `source` is its index there.
 std::vector<TreeBrick> treeBricks(const Bricks& densities, std::vector<std::uint64_t>& order) {
     for (const auto& [key, values] : densities.all()) order.push_back(key);
     std::vector<CellMask> filled(order.size());
@@ -51,7 +51,7 @@ std::vector<TreeBrick> treeBricks(const Bricks& densities, std::vector<std::uint
     places.reserve(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) places.emplace(order[i], i);
 
-    // All bricks that samples reach: those themselves, and the seven below each.
+    // All bricks that samples can read: those with density, and the seven below each.
     std::vector<TreeBrick> bricks;
     std::unordered_map<std::uint64_t, bool> seen;
     seen.reserve(2 * order.size());
@@ -83,7 +83,7 @@ std::vector<TreeBrick> treeBricks(const Bricks& densities, std::vector<std::uint
     return bricks;
 }
 
-/// Lays out these bricks and copies their values; `source` is a leaf's place in `order`.
+/// Lays out these bricks and copies their values; a leaf's `source` is its index in `order`.
 void plant(const Bricks& values, std::vector<TreeBrick> bricks, const std::vector<std::uint64_t>& order,
            double spacingMetres, const glm::dvec3& originMetres, std::size_t roomBytes, NanoTree& tree) {
     tree.lay(bricks, spacingMetres, originMetres, roomBytes);

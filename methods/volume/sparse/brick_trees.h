@@ -1,4 +1,4 @@
-// Makes trees of bricks.
+// Builds trees from bricks.
 //
 // `spacingMetres`, `originMetres` and `roomBytes` are as in NanoTree::lay.
 #pragma once
@@ -8,11 +8,12 @@
 
 namespace dustbench::volume {
 
-/// Of densities: a leaf for each brick, and tiles where samples reach into others. Threads: runs in parallel.
+/// Builds a tree of densities: a leaf for each brick, and tiles where samples reach into other bricks. Threads: runs in
+/// parallel.
 void plantDensities(const Bricks& densities, double spacingMetres, const glm::dvec3& originMetres,
                     std::size_t roomBytes, NanoTree& tree);
 
-/// Of any values: all cells of all bricks are active.
+/// Builds a tree of any values: all cells of all bricks are active.
 void plantAll(const Bricks& values, double spacingMetres, const glm::dvec3& originMetres, std::size_t roomBytes,
               NanoTree& tree);
 

@@ -1,4 +1,4 @@
-// Bricks of 8×8×8 cells of a volume, those with something in them alone, while it is read or put together.
+// The non-empty bricks of 8×8×8 cells of a volume, while it is read or built.
 //
 // A brick at (x, y, z) holds the cells from 8·(x, y, z) on, z fastest, as NanoVDB's leaves do. Units: cells of a
 // lattice that all moments of a series share. Owns: its values.
@@ -34,12 +34,12 @@ class Bricks {
  public:
     using Values = std::array<float, brickCells>;
 
-    /// Null if it is not there.
+    /// Null if there is no such brick.
     [[nodiscard]] const Values* find(const glm::ivec3& brick) const {
         const auto found = places_.find(keyOf(brick));
         return found == places_.end() ? nullptr : found->second.get();
     }
-    /// Made, of zeros, if it is not there.
+    /// Creates a brick of zeros if there is none.
     [[nodiscard]] Values& at(const glm::ivec3& brick) {
         std::unique_ptr<Values>& values = places_[keyOf(brick)];
         if (!values) values = std::make_unique<Values>();

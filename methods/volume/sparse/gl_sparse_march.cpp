@@ -13,18 +13,18 @@
 namespace dustbench::volume {
 namespace {
 
-/// Of the system's NanoVDB, embedded when this was built. What it reads is declared before it.
+/// The system's copy from NanoVDB, embedded at build time. The buffer that it reads must be declared before it.
 constexpr gpu::ShaderFile pnanovdb{"volume_sparse/PNanoVDB.glsl", volume_sparse_shaders::PNanoVDB_h.text};
 
 }  // namespace
 
 void requireTreesFit(std::size_t treeBytes, std::size_t maximumBytes) {
-    // PNanoVDB.h is used with addresses of 32 bits, whose differences are signed where the shader computes with them.
+    // PNanoVDB.h is used with 32-bit addresses, and the shader computes signed differences of them.
     const std::size_t allowed = std::min<std::size_t>(maximumBytes, std::numeric_limits<std::int32_t>::max());
     if (treeBytes > allowed)
         throw InputError(
             fmt::format("storage=sparse: the volume takes {:.1f} MB on the GPU, allowed: {:.1f} MB, the largest "
-                        "storage buffer of this OpenGL; backend=cpu has no such limit",
+                        "storage buffer of this OpenGL driver; backend=cpu has no such limit",
                         static_cast<double>(treeBytes) / 1e6, static_cast<double>(allowed) / 1e6));
 }
 

@@ -1,7 +1,7 @@
-// Ray casting of a sparse grid on the GPU, by the shader of the dense one (kit/raycast/grid_march.frag).
+// Ray casting of a sparse grid on the GPU, with the shader for dense grids (kit/raycast/grid_march.frag).
 //
-// The trees of density and fire lie in one storage buffer, which PNanoVDB.h reads. Owns: that buffer. Threads: the
-// OpenGL thread. Source: Museth2021.
+// The trees of density and fire are stored in one storage buffer, which PNanoVDB.h reads. Owns: that buffer. Threads:
+// the OpenGL thread. Source: Museth2021.
 #pragma once
 
 #include <memory>
@@ -20,8 +20,8 @@ class GlSparseMarch {
  public:
     GlSparseMarch(gpu::Device& device, const raycast::RaycastSettings& settings);
 
-    /// `light`: null if the cloud casts no shadow on itself. Throws InputError if the trees are larger than a storage
-    /// buffer may be.
+    /// `light`: null if the cloud casts no shadow on itself. Throws InputError if the trees exceed the maximum size of
+    /// a storage buffer.
     void upload(const SparseMoment& moment, const raycast::LightVolume* light);
     /// Draws the moment uploaded last at these pixels.
     void draw(const SparseMoment& moment, const raycast::PixelRectangle& pixels, const raycast::Reflected& reflected,
@@ -40,7 +40,7 @@ class GlSparseMarch {
     std::optional<gpu::Program> smokeAlone_, withFire_;  ///< compiled on first use
 };
 
-/// Throws InputError if trees of so many bytes together do not fit a storage buffer of so many.
+/// Throws InputError if trees of `treeBytes` in total do not fit a storage buffer of `maximumBytes`.
 void requireTreesFit(std::size_t treeBytes, std::size_t maximumBytes);
 
 }  // namespace dustbench::volume

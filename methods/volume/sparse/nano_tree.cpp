@@ -24,7 +24,7 @@ nanovdb::Coord coordOf(const glm::ivec3& cell) {
     return {cell.x, cell.y, cell.z};
 }
 
-/// Where a brick comes in the tree: its root key, then its places in the nodes below.
+/// A brick's position in the tree's order: its root key, then its indices in the nodes below.
 struct Place {
     std::uint64_t key;
     std::uint32_t inUpper, inLower;
@@ -54,7 +54,7 @@ Counts countNodes(const std::vector<TreeBrick>& bricks) {
     return counts;
 }
 
-/// Where the nodes of each kind begin.
+/// Offsets of the first node of each kind.
 struct Layout {
     explicit Layout(const Counts& counts)
         : tree(sizeof(nanovdb::GridData)),
@@ -101,7 +101,7 @@ void fillHeader(std::byte* bytes, const Layout& layout, const Counts& counts, do
     nodeAt<Root>(bytes, layout.root)->mTableSize = static_cast<std::uint32_t>(counts.uppers);
 }
 
-/// Grows by a brick that lies in it.
+/// Grows the node's bounds by those of a brick in it.
 template <typename Node>
 void grow(Node& node, const nanovdb::CoordBBox& box) {
     if (box.empty()) return;
@@ -109,7 +109,7 @@ void grow(Node& node, const nanovdb::CoordBBox& box) {
     node.mBBox.expand(box.max());
 }
 
-/// The cells that are active in a brick.
+/// The bounds of a brick's active cells.
 nanovdb::CoordBBox boxOf(const TreeBrick& brick) {
     nanovdb::CoordBBox box;
     std::uint64_t any = 0;

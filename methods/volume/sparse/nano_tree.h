@@ -1,8 +1,8 @@
-// A sparse grid of floats in memory as NanoVDB lays it out: what has no leaf is 0.
+// A sparse grid of floats in NanoVDB's memory layout; cells without a leaf are 0.
 //
-// A cell is active if a sample between its middle and those of its upper neighbours may see density: if it or one of
-// the seven cells beside it, upwards along the axes, has some. A leaf holds 8×8×8 cells of which one has density; a
-// brick without any in which cells are active is an active tile of 0. Both march over these alone.
+// A cell is active if a sample between its centre and those of its upper neighbours may see density: if it or one of
+// its seven upper neighbours has some. A leaf holds 8×8×8 cells, at least one of which has density. A brick with active
+// cells but without density is an active tile of 0. Both marches visit only leaves and tiles.
 //
 // Units: cells of the lattice of a series; metres where stated. Owns: the grid, booked on a ledger. Threads: const
 // members are safe from any. Source: Museth2021.
@@ -28,29 +28,29 @@ struct TreeBrick {
     glm::ivec3 at{0};
     bool isLeaf = false;
     CellMask active{};
-    std::size_t source = 0;  ///< whatever the maker of a tree knows the brick by
+    std::size_t source = 0;  ///< an identifier chosen by the builder of the tree
 };
 
 class NanoTree {
  public:
     explicit NanoTree(MemoryAccount& account) : bytes_(account), leaves_(account), tiles_(account) {}
 
-    /// Lays out these bricks, each of which is there once, and sorts them as the tree does. All values are 0.
+    /// Lays out these bricks, which must be distinct, and sorts them in the order of the tree. All values are 0.
     /// `spacingMetres` and `originMetres`, the minimum corner of cell (0, 0, 0), are for other programs.
-    /// Throws InputError if it takes more than `maximumBytes`.
+    /// Throws InputError if the tree takes more than `maximumBytes`.
     void lay(std::vector<TreeBrick>& bricks, double spacingMetres, const glm::dvec3& originMetres,
              std::size_t maximumBytes);
-    /// Of the leaf of that place among all leaves, in the order of lay().
+    /// The values of leaf number `leaf` in the order of lay().
     [[nodiscard]] float* valuesOf(std::size_t leaf);
     [[nodiscard]] const float* valuesOf(std::size_t leaf) const;
     [[nodiscard]] const glm::ivec3& brickOf(std::size_t leaf) const { return leaves_[leaf]; }
     [[nodiscard]] std::size_t leafCount() const { return leaves_.size(); }
 
-    /// All of its bricks, as they were laid; tiles as if all of their cells were active.
+    /// All bricks, in the order of lay(); tiles as if all of their cells were active.
     [[nodiscard]] std::vector<TreeBrick> bricks() const;
 
     [[nodiscard]] bool empty() const { return bytes_.empty() || leaves_.empty(); }
-    /// NanoVDB's bytes.
+    /// The grid as a NanoVDB buffer.
     [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
     /// The range [minimum, maximum) contains all active cells.
     [[nodiscard]] const glm::ivec3& minimum() const { return minimum_; }

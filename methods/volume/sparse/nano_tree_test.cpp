@@ -1,4 +1,4 @@
-// The trees are NanoVDB's: its own functions find them sound, and read every value that was put in.
+// Checks that the trees are valid for NanoVDB: its functions validate them and read back every value.
 #include "methods/volume/sparse/nano_tree.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Looks up bricks of a sparse grid, one near the other: remembers the nodes of the last one.
+// Looks up bricks of a sparse grid. Remembers the nodes of the last one, which makes nearby lookups cheap.
 //
 // Units: bricks and cells of the lattice. Threads: one walk per thread. Internal to marches on the CPU.
 #pragma once
@@ -19,8 +19,7 @@ class NanoWalk {
     struct Found {
         const float* values = nullptr;          ///< of a leaf, z fastest
         const std::uint64_t* active = nullptr;  ///< cells of a leaf, a word for each x
-        int emptyEdge =
-            0;  ///< cells along the edge of the node without density that the brick lies in; 0: it is active
+        int emptyEdge = 0;  ///< cells along the edge of the empty node that contains the brick; 0: it is active
     };
 
     [[gnu::always_inline]] Found at(const glm::ivec3& brick) {

@@ -1,6 +1,6 @@
 // Samples the densities of a sparse volume, for grid_optics.glsl and grid_march.frag. Source: Museth2021.
 //
-// Cells whose samples may see density are active; what lies elsewhere is 0 (nano_tree.h). Lengths are in cells;
+// Cells whose samples may see density are active; all other cells are 0 (nano_tree.h). Lengths are in cells;
 // positions are relative to the minimum corner of the box.
 #define SPARSE
 uniform vec3 cells;       // of the box
@@ -10,13 +10,13 @@ uniform int reactionTree;  // its address
 #endif
 
 pnanovdb_buf_t trees;
-// Nodes of the last sample, near which the next one lies.
+// Nodes of the last sample, since the next one is nearby.
 pnanovdb_readaccessor_t densityNodes;
 bool isOpen = false;
 #ifdef FIRE
 pnanovdb_readaccessor_t reactionNodes;
 #endif
-int emptyEdge = 0;  // of the node without density in which the last sample lay; 0: there was none
+int emptyEdge = 0;  // edge of the empty node that contained the last sample; 0: there was none
 ivec3 emptyCell;
 
 void openTree(out pnanovdb_readaccessor_t nodes, uint address) {
@@ -24,7 +24,7 @@ void openTree(out pnanovdb_readaccessor_t nodes, uint address) {
     pnanovdb_readaccessor_init(nodes, pnanovdb_tree_get_root(trees, pnanovdb_grid_get_tree(trees, grid)));
 }
 
-// The two values from an address on, linear between them.
+// Interpolates linearly between the two values from an address on.
 float alongZ(uint address, float share) {
     return mix(uintBitsToFloat(pnanovdb_buf_data[address >> 2]), uintBitsToFloat(pnanovdb_buf_data[(address >> 2) + 1u]),
                share);
@@ -37,7 +37,7 @@ float valueAt(inout pnanovdb_readaccessor_t nodes, ivec3 cell) {
     return uintBitsToFloat(pnanovdb_buf_data[address >> 2]);
 }
 
-// Linear between the eight neighbours.
+// Interpolates linearly between the eight neighbours.
 float sampledSparse(inout pnanovdb_readaccessor_t nodes, ivec3 cell, vec3 share) {
     if (all(lessThan(cell & 7, ivec3(7)))) {
         uint level;
@@ -77,7 +77,7 @@ float densityAt(vec3 at) {
     if (pnanovdb_readaccessor_is_active(PNANOVDB_GRID_TYPE_FLOAT, trees, densityNodes, cell))
         return sampledSparse(densityNodes, cell, share);
     int edge = int(pnanovdb_readaccessor_get_dim(PNANOVDB_GRID_TYPE_FLOAT, trees, densityNodes, cell));
-    emptyEdge = edge > 1 ? edge : 0;  // 1: it lies in a leaf
+    emptyEdge = edge > 1 ? edge : 0;  // 1: the sample is in a leaf
     emptyCell = cell & ~(edge - 1);
     return 0.0;
 }
@@ -91,7 +91,7 @@ float reactionAt(vec3 at) {
 }
 #endif
 
-// Steps from `start` on whose middles lie in the node without density in which the last sample lay.
+// Number of steps from `start` on whose centres are in the empty node that contained the last sample.
 int stepsClear(vec3 start, vec3 ray, float stepLength) {
     if (emptyEdge == 0) return 0;
     vec3 low = vec3(emptyCell - firstCell) + 0.5;

@@ -18,7 +18,7 @@ void meanDensities(const SparseMoment& moment, std::span<const glm::vec4> fire, 
     const auto slab = static_cast<std::size_t>(texels.x) * static_cast<std::size_t>(texels.y);
     const NanoTree& tree = moment.density;
     std::ranges::fill(averages, 0.0f);
-    // A slab of texels at a time, so that each is added up in one order.
+    // One slab of texels at a time, so that each is summed in a fixed order.
     parallel::forEachBlock(static_cast<std::size_t>(texels.z), 1, [&](std::size_t layer, std::size_t) {
         NanoWalk reactions(moment.reaction);
         const int low = static_cast<int>(layer) * texelCells, high = std::min(low + texelCells, moment.cells.z);
@@ -32,7 +32,7 @@ void meanDensities(const SparseMoment& moment, std::span<const glm::vec4> fire, 
                 for (int y = 0; y < brickEdge; ++y)
                     for (int x = 0; x < brickEdge; ++x) {
                         const int i = x << 6 | y << 3 | z;
-                        if (!(values[i] > 0)) continue;  // what lies in the box alone
+                        if (!(values[i] > 0)) continue;  // only cells in the box
                         float density = values[i];
                         if (!moment.reaction.empty()) {
                             const auto last = static_cast<float>(fire.size() - 1);
@@ -55,17 +55,17 @@ void meanDensities(const SparseMoment& moment, std::span<const glm::vec4> fire, 
 
 void requireLightFits(const SparseMoment& moment, int texelCells, bool onGpu) {
     constexpr double mostTexels = static_cast<double>(files::limits::volumeCells) / 8;
-    constexpr int textureEdge = 2048;  // that every OpenGL 4.5 supports
+    constexpr int textureEdge = 2048;  // guaranteed by OpenGL 4.5
     const glm::dvec3 texels(((moment.cells - 1) / texelCells + 1));
     if (const double count = texels.x * texels.y * texels.z; count > mostTexels)
         throw InputError(
             fmt::format("storage=sparse: the box has {:.4g} blocks of shadow_cells={} for its light, allowed: "
-                        "{:.4g}; larger shadow_cells give fewer",
+                        "{:.4g}; increase shadow_cells",
                         count, texelCells, mostTexels));
     if (const double edge = std::max({texels.x, texels.y, texels.z}); onGpu && edge > textureEdge)
         throw InputError(
             fmt::format("storage=sparse: the box has {} blocks of shadow_cells={} along an axis for its light, "
-                        "allowed by OpenGL: {}; larger shadow_cells give fewer",
+                        "allowed by OpenGL: {}; increase shadow_cells",
                         edge, texelCells, textureEdge));
 }
 

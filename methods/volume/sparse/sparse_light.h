@@ -1,4 +1,4 @@
-// What the light of a cloud is made of (kit/raycast/light_volume.h), found in the leaves of a sparse grid.
+// Computes the input of a light volume (kit/raycast/light_volume.h) from the leaves of a sparse grid.
 #pragma once
 
 #include <span>
@@ -9,12 +9,12 @@
 
 namespace dustbench::volume {
 
-/// The mean density of each block of `texelCells` cells of the box, x fastest; that of a cell counts as many times as
-/// its fire's extinction factor says (`fire`: TransferFunction::table). Threads: runs in parallel.
+/// The mean density of each block of `texelCells` cells of the box, x fastest. The density of a cell is multiplied by
+/// its fire's extinction factor (`fire`: TransferFunction::table). Threads: runs in parallel.
 void meanDensities(const SparseMoment& moment, std::span<const glm::vec4> fire, int texelCells,
                    std::span<float> averages);
 
-/// Throws InputError if light takes more blocks than it may, or more along an axis than a texture has.
+/// Throws InputError if the light needs too many blocks, or more along an axis than a texture supports.
 void requireLightFits(const SparseMoment& moment, int texelCells, bool onGpu);
 
 }  // namespace dustbench::volume

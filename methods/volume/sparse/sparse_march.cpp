@@ -18,7 +18,7 @@ glm::ivec3 firstThree(const FourInts& four) {
     return {four[0], four[1], four[2]};
 }
 
-/// The values of a tree near the last place that was asked for: of a brick and its seven upper neighbours.
+/// The values of a tree near the last position: those of a brick and its seven upper neighbours.
 class NearbyValues {
  public:
     explicit NearbyValues(const NanoTree& tree) : walk_(tree) {}
@@ -28,11 +28,11 @@ class NearbyValues {
     [[gnu::always_inline]] void moveTo(const glm::ivec3& brick) {
         if (brick != brick_) move(brick);
     }
-    /// Of a cell that lies in one of the eight bricks, relative to the first one's first cell.
+    /// The value of a cell in one of the eight bricks, relative to the first cell of the first brick.
     [[gnu::always_inline]] [[nodiscard]] float at(int x, int y, int z) const {
         return corners_[x >> 3 | y >> 3 << 1 | z >> 3 << 2][(x & 7) << 6 | (y & 7) << 3 | (z & 7)];
     }
-    /// Four cells along z, likewise.
+    /// The same for four cells along z.
     [[gnu::always_inline]] [[nodiscard]] Four row(int x, int y, int z) const {
         const int corner = x >> 3 | y >> 3 << 1, row = (x & 7) << 6 | (y & 7) << 3;
         using lanes::Float8;
@@ -64,7 +64,7 @@ struct Source {
     float stepCells;
 };
 
-/// What a packet's rays see in a sparse grid.
+/// The samples of a packet's rays in a sparse grid.
 class SparseProbe {
  public:
     SparseProbe(const Source& source, const RayPacket& rays)
@@ -97,13 +97,13 @@ class SparseProbe {
     }
 
  private:
-    /// The cell whose middle is the nearest below a position, on the lattice.
+    /// The lattice cell whose centre is the nearest below a position.
     [[gnu::always_inline]] [[nodiscard]] FourInts cellBelow(const Four& place) const {
         return __builtin_convertvector(raycast::atLeast(raycast::atMost(place - 0.5f, last_), Four{}), FourInts) +
                first_;
     }
 
-    /// Whether any cell of a brick is active between the two.
+    /// Whether any cell of a brick between `low` and `high` is active.
     [[nodiscard]] bool isActive(const glm::ivec3& brick, const glm::ivec3& low, const glm::ivec3& high) {
         const NanoWalk::Found found = density_.walk().at(brick);
         if (!found.active) return found.emptyEdge == 0;
@@ -116,7 +116,7 @@ class SparseProbe {
         return (any & alongZ & rows) != 0;
     }
 
-    /// Chunks from the step at `begin` on, whose first is clear, that lie within a node without density.
+    /// Number of chunks from the step at `begin` on that are within an empty node; the first one is known to be.
     [[nodiscard]] int chunksWithin(const glm::ivec3& node, int edge, float begin) const {
         float leaves = std::numeric_limits<float>::max();
         for (int axis = 0; axis < 3; ++axis) {
@@ -137,7 +137,7 @@ class SparseProbe {
         const glm::ivec3 cell = firstThree(base + first_), within = cell & 7;
         const Four most = raycast::atLeast(raycast::atMost(high, last_), Four{}) - whole;
         Places at = raycast::placesOf(rays_, reach.middle, whole, 1);
-        // Beyond the outermost middles, values are theirs; a ray that misses the box may be anywhere.
+        // Clamps to the outermost cell centres; a ray that misses the box may be anywhere.
         for (int axis = 0; axis < 3; ++axis) {
             Floats& place = axis == 0 ? at.x : axis == 1 ? at.y : at.z;
             place = raycast::atLeast(raycast::atMost(place, raycast::all(most[axis])), Floats{});
@@ -151,7 +151,7 @@ class SparseProbe {
             return raycast::CellWindow([&](int k, int j) { return values.row(within.x + k, within.y + j, within.z); })
                 .sample(turned);
         }
-        // All corners of all lanes lie in eight bricks.
+        // All corners of all lanes are in eight bricks.
         if (most[0] + static_cast<float>(within.x) < 14.999f && most[1] + static_cast<float>(within.y) < 14.999f &&
             most[2] + static_cast<float>(within.z) < 14.999f) {
             values.moveTo(cell >> 3);
@@ -165,7 +165,7 @@ class SparseProbe {
         });
     }
 
-    /// Linear between the eight neighbours of each lane; `value(x, y, z)` is that of a cell.
+    /// Interpolates linearly between the eight neighbours of each lane; `value(x, y, z)` is the value of a cell.
     template <typename Value>
     [[nodiscard]] static Floats lanewise(const Places& at, const Value& value) {
         const Ints i = raycast::wholePart(at.x), j = raycast::wholePart(at.y), k = raycast::wholePart(at.z);

@@ -1,7 +1,7 @@
 // Ray casting of a sparse grid on the CPU: sixteen neighbouring pixels at a time, in parallel.
 //
-// Takes the same steps as the march through a dense grid (kit/raycast/cpu_march.h) and leaves out nodes of the tree
-// without density. Units: cells. Threads: march() uses the current oneTBB arena; the picture does not depend on the
+// Takes the same steps as the march through a dense grid (kit/raycast/cpu_march.h) and skips nodes of the tree without
+// density. Units: cells. Threads: march() uses the current oneTBB arena; the picture does not depend on the
 // number of threads. Source: Senger2009, ch. 4; Museth2021.
 #pragma once
 
@@ -19,7 +19,7 @@ class SparseMarch {
     /// `moment`, and `light` if the cloud casts a shadow on itself, must outlive all marches through it.
     void set(const SparseMoment& moment, const raycast::LightVolume* light);
 
-    /// 1 for smoke of uniform colour, else 4.
+    /// 1 for smoke of uniform colour, otherwise 4.
     [[nodiscard]] int channels() const { return burning() || light_ ? 4 : 1; }
     /// `picture.channels` must equal `channels()`.
     void march(const raycast::PixelRays& rays, const raycast::SceneDepths& depths, const raycast::Reflected& reflected,

@@ -1,4 +1,4 @@
-// A volume as it is shown at one moment: the box in which steps are taken, and trees of density and of fire.
+// A volume at one moment: the box in which rays are marched, and trees of density and fire.
 //
 // Units: metres; cells of the lattice of a series. Frame: world.
 #pragma once
@@ -14,9 +14,9 @@ struct SparseMoment {
     SparseMoment(MemoryLedger& ledger, std::string_view structure)
         : density(ledger.account(structure)), reaction(ledger.account(structure)) {}
 
-    /// Position and size only, as of a dense grid.
+    /// Position and size only, as for a dense grid.
     [[nodiscard]] raycast::ShownGrid place() const { return {cells, spacingMetres, originMetres, {}, {}}; }
-    /// All that can be seen lies in [minimum, maximum), in cells of the box.
+    /// Everything visible is in [minimum, maximum), in cells of the box.
     [[nodiscard]] glm::ivec3 minimum() const { return glm::max(density.minimum() - firstCell, glm::ivec3(0)); }
     [[nodiscard]] glm::ivec3 maximum() const { return glm::min(density.maximum() - firstCell + 1, cells); }
 

@@ -1,4 +1,4 @@
-// Draws a sparse volume by ray casting, on the CPU or by OpenGL: what GridRaycast is for a dense one.
+// Draws a sparse volume by ray casting, on the CPU or by OpenGL; the counterpart of GridRaycast for dense volumes.
 //
 // Units: metres, extinction per metre. Frame: world. Colours: linear RGB. Threads: the OpenGL thread; the CPU march
 // runs in parallel.
@@ -14,7 +14,7 @@
 
 namespace dustbench::volume {
 
-/// Throws InputError for what a sparse volume is not shown by.
+/// Throws InputError for settings that sparse volumes do not support.
 void requireSparse(const raycast::RaycastSettings& settings);
 
 class SparsePicture {

@@ -1,4 +1,4 @@
-// Pictures of sparse volumes equal those of dense ones, and the plain march.
+// Checks that pictures of sparse volumes equal those of dense ones and of the plain march.
 #include "methods/volume/sparse/sparse_picture.h"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ using raycast::Backend, raycast::Canvas, raycast::RaycastSettings, raycast::Test
     raycast::meanAlpha;
 using testing::HasSubstr;
 
-/// Lumps in places of their own, beyond which most of the box is clear; some touch its faces.
+/// Separate lumps in a box that is mostly clear; some touch its faces.
 TestGrid blobs(std::mt19937& random, const glm::ivec3& cells, bool burning) {
     std::uniform_real_distribution<double> share(0, 1);
     struct Blob {
@@ -32,7 +32,7 @@ TestGrid blobs(std::mt19937& random, const glm::ivec3& cells, bool burning) {
     for (int i = 0; i < 9; ++i)
         all.push_back(
             {glm::dvec3(share(random), share(random), share(random)) * glm::dvec3(cells), 1 + 4 * share(random)});
-    // A single cell, which eight samples around it see.
+    // A single cell, seen by samples on all eight sides.
     all.push_back({glm::floor(glm::dvec3(cells) * glm::dvec3(share(random), share(random), share(random))) + 0.5, 0.4});
     TestGrid grid(cells, 0.1, glm::dvec3(cells) * -0.05, [](const glm::dvec3&) { return 0.0; });
     for (std::size_t i = 0; i < grid.density.size(); ++i) {
@@ -86,7 +86,7 @@ TEST_P(SparsePictureOn, EqualsThatOfTheDenseVolume) {
         settings.stepCells = set % 6 == 4 ? 1.7 : set % 6 == 5 ? 0.25 : 0.5;
         settings.skipEmpty = set % 7 != 6;
         settings.stopAlpha = set % 3 == 2 ? 0.8 : 1;
-        // Near, within, and so far that a packet sees many cells.
+        // Near, within, and so far away that a packet sees many cells.
         const double distance = set % 4 == 0 ? 0.8 : set % 4 == 1 ? 40 : 7;
         const glm::dvec3 eye = distance * glm::normalize(glm::dvec3(centred(random), centred(random), centred(random)));
         canvas.lookFrom(eye, -eye);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t leavesPerBlock = 64;
 
-/// Calls see(brick), more than once maybe, for the bricks that samples with density read.
+/// Calls see(brick) for the bricks that samples with density read; maybe more than once for a brick.
 template <typename See>
 void forEachSeen(const NanoTree& densities, const See& see) {
     for (const TreeBrick& brick : densities.bricks())
@@ -75,8 +75,8 @@ void SparseSeries::readDensities(std::vector<volumes::GridPlace>& places) {
     }
 }
 
-/// A moment's temperatures are kept where its density is, and where that of the moments beside it is, for between two
-/// moments both count.
+/// A moment's temperatures are kept where it or a neighbouring moment has density, since both count between two
+/// moments.
 void SparseSeries::readTemperatures(const std::vector<volumes::GridPlace>& places) {
     for (std::size_t i = 0; i < moments_.size(); ++i) {
         BrickRows rows;
@@ -133,7 +133,7 @@ void SparseSeries::prepare(std::size_t before, std::size_t after) {
     place(between_, both, volumes::firstCell(series_->places().front(), both) + leadCell);
     densities_ = join(moments_[before].density, moments_[after].density, {}, between_.density);
     if (!setup_.fire.empty()) {
-        // Beyond the boxes of both moments, but in one around both, the temperature is 0, which may be warm.
+        // Outside the boxes of both moments, but in the box around both, the temperature is 0, which may be warm.
         std::vector<TreeBrick> beyond;
         if (freshness(0) > 0)
             forEachSeen(between_.density, [&](const glm::ivec3& brick) { beyond.push_back({brick, true, {}, 0}); });

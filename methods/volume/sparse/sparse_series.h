@@ -1,7 +1,7 @@
-// A volume that changes with time, kept sparse: the bricks of its moments, and what is shown between them.
+// A sparse volume that changes with time: the bricks of its moments, and interpolation between them.
 //
-// Between two moments every value changes evenly, as in VolumeSeries. Units: m, s; density is the files'. Frame: world
-// (+Y up). Owns: the trees, booked on a ledger.
+// Between two moments every value changes linearly, as in VolumeSeries. Units: m, s; density is the files'. Frame:
+// world (+Y up). Owns: the trees, booked on a ledger.
 #pragma once
 
 #include <array>
@@ -17,29 +17,29 @@ namespace dustbench::volume {
 
 class SparseSeries {
  public:
-    /// Notes the files as inputs. Temperature is kept if the setup has a fire. `ledger` must outlive this.
-    /// Throws InputError, one line with the file.
+    /// Records the files as inputs. Keeps temperatures if the setup has a fire. `ledger` must outlive this.
+    /// Throws InputError with one line that names the file.
     SparseSeries(const volumes::VolumeSetup& setup, MemoryLedger& ledger);
 
     [[nodiscard]] bool isStill() const { return series_->isStill(); }
     [[nodiscard]] double seconds() const { return series_->seconds(); }
-    /// The volume so many seconds after the first moment, valid until the next call.
+    /// The volume `seconds` after the first moment, valid until the next call.
     [[nodiscard]] const SparseMoment& at(double seconds);
-    /// What at() returned last.
+    /// The last result of at().
     [[nodiscard]] const SparseMoment& shown() const { return *last_; }
-    /// Changes whenever what at() returns does.
+    /// Changes whenever the result of at() does.
     [[nodiscard]] std::int64_t shows() const { return shows_; }
 
  private:
-    /// Where the values of a leaf come from: of the moment before and of the one after; null: 0.
+    /// Sources of a leaf's values in the moments before and after; null: 0.
     using Sources = std::vector<std::array<const float*, 2>>;
 
     void readDensities(std::vector<volumes::GridPlace>& places);
     void readTemperatures(const std::vector<volumes::GridPlace>& places);
-    /// Bytes that further trees may take.
+    /// Bytes available for further trees.
     [[nodiscard]] std::size_t roomBytes() const;
     void prepare(std::size_t before, std::size_t after);
-    /// Lays out a tree of the bricks of both moments and of others.
+    /// Lays out a tree of the bricks of both moments and `others`.
     [[nodiscard]] Sources join(const NanoTree& before, const NanoTree& after, const std::vector<TreeBrick>& others,
                                NanoTree& joined) const;
     [[nodiscard]] float freshness(float temperature) const;

@@ -1,5 +1,5 @@
-// Volumes that are kept sparse have the values of dense ones, whatever file they come from; what a dense one cannot
-// hold, too.
+// Checks that sparse volumes have the values of dense ones for every type of file, including volumes too large for a
+// dense one.
 #include "methods/volume/sparse/sparse_series.h"
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ std::string writtenVdb(const TestFolder& folder, const std::string& name, const 
     return path;
 }
 
-/// Clusters of cells with density and, in more of them, temperature; around `middle`.
+/// Clusters of cells with density, and a larger set with temperature, around `middle`.
 openvdb::GridPtrVec clusters(unsigned seed, const openvdb::Coord& middle, bool hot, double time) {
     openvdb::initialize();
     std::mt19937 random(seed);
@@ -118,7 +118,7 @@ TEST(SparseSeries, HasEveryValueOfTheDenseOne) {
 
 TEST(SparseSeries, ChangesEvenlyBetweenItsMomentsWhereverTheyLie) {
     const TestFolder folder;
-    // They overlap in part, and not at all.
+    // Moments that overlap partly, and not at all.
     for (const int apart : {0, 13, 150})
         for (const bool hot : {false, true}) {
             for (int i = 0; i < 3; ++i)
@@ -201,8 +201,8 @@ TEST(SparseStorage, ShowsWhatADenseOneCannotHoldButDoesNotHandOverItsBox) {
         Nobody nobody;
         EXPECT_THAT(
             inputError([&] { storage.handOver(0, nobody); }),
-            HasSubstr("the whole box of the volume has 3.222e+08 cells, allowed where all of them are handed over: "
-                      "2.56e+08 (limit of volumes)"));
+            HasSubstr("the whole box of the volume has 3.222e+08 cells, allowed for a dense copy: 2.56e+08 (limit of "
+                      "volumes)"));
     }
 }
 
@@ -224,7 +224,7 @@ TEST(SparseSeries, RefusesWhatADenseOneRefuses) {
         return refusal(&grid == &*density ? openvdb::GridPtrVec{copy, heat} : openvdb::GridPtrVec{density, copy}, hot);
     };
     EXPECT_THAT(with(*density, -0.5f), HasSubstr("it has a density of -0.5, allowed: 0 or more"));
-    EXPECT_THAT(with(*density, NAN), HasSubstr("it has a density that is no number"));
+    EXPECT_THAT(with(*density, NAN), HasSubstr("it has a density that is not a number"));
     EXPECT_THAT(refusal({density}, true), HasSubstr("it has no field of numbers 'temperature'"));
     MemoryLedger ledger;
     EXPECT_EQ(inputError([&] { SparseSeries(setupOf(folder.write("a.raw", "1"), false), ledger); }),
@@ -253,7 +253,7 @@ TEST(SparseSeries, RefusesBoxesBeyondItsOwnLimits) {
     EXPECT_THAT(refusal({1300, 1300, 1300}), HasSubstr("more than 2 billion cells (limit of sparse volumes)"));
     EXPECT_THAT(refusal({1, 1, 65'536}),
                 HasSubstr("it has 65537 cells along an axis, allowed: 65536 (limit of sparse volumes)"));
-    // Moments that lie on other lattices, or too far apart for one.
+    // Moments on different lattices, or too far apart for one.
     (void)writtenVdb(folder, "s0.vdb", {grid});
     const auto moment = [&](const openvdb::Vec3d& at) {
         const auto moved = grid->deepCopy();
@@ -265,7 +265,7 @@ TEST(SparseSeries, RefusesBoxesBeyondItsOwnLimits) {
         MemoryLedger ledger;
         return inputError([&] { SparseSeries(setup, ledger); });
     };
-    EXPECT_THAT(moment({0.4, 0, 0}), HasSubstr("s1.vdb: lies on another grid than s0.vdb"));
+    EXPECT_THAT(moment({0.4, 0, 0}), HasSubstr("s1.vdb: is on a different grid from s0.vdb"));
     EXPECT_THAT(moment({9e6, 0, 0}), HasSubstr("s1.vdb: it lies 9e+06 cells from the first of its series"));
     EXPECT_THAT(moment({2000, 2000, 2000}), HasSubstr("it has more than 2000000000 cells (limit of volumes)"));
 }

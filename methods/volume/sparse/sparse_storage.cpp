@@ -33,8 +33,8 @@ void SparseStorage::handOver(double seconds, VolumeVisitor& visitor) const {
         static_cast<double>(place.cells.x) * static_cast<double>(place.cells.y) * static_cast<double>(place.cells.z);
     if (cells > static_cast<double>(files::limits::volumeCells))
         throw InputError(
-            fmt::format("storage=sparse: the whole box of the volume has {:.4g} cells, allowed where all of "
-                        "them are handed over: {:.4g} (limit of volumes)",
+            fmt::format("storage=sparse: the whole box of the volume has {:.4g} cells, allowed for a dense copy: "
+                        "{:.4g} (limit of volumes)",
                         cells, static_cast<double>(files::limits::volumeCells)));
     std::vector<float> density(place.cellCount());
     for (std::size_t leaf = 0; leaf < moment.density.leafCount(); ++leaf) {

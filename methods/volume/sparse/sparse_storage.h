@@ -1,4 +1,4 @@
-// A volume kept as its bricks alone, drawn by ray casting.
+// A volume stored as its non-empty bricks, drawn by ray casting.
 //
 // Owns: the moments of the series, and the picture.
 #pragma once
@@ -18,7 +18,8 @@ class SparseStorage final : public Storage {
     [[nodiscard]] double seconds() const override { return series_.seconds(); }
     void show(double seconds, const StageClock& clock) override;
     void draw(const scene::View& view, gpu::Layer& layer) override { picture_.draw(view, layer); }
-    /// The whole box of cells, with its density. Throws InputError if it has more than a dense one may have.
+    /// Hands over the whole box of cells with its density. Throws InputError if it has more cells than a dense volume
+    /// may have.
     void handOver(double seconds, VolumeVisitor& visitor) const override;
     [[nodiscard]] double massSquareMetres() const override;
     [[nodiscard]] MemoryReport memory() const override;
@@ -27,9 +28,9 @@ class SparseStorage final : public Storage {
  private:
     MemoryLedger ledger_;
     raycast::RaycastSettings settings_;
-    mutable SparseSeries series_;  ///< what it shows is a cache
+    mutable SparseSeries series_;  ///< mutable because it caches the shown moment
     SparsePicture picture_;
-    std::int64_t shows_ = -1;  ///< SparseSeries::shows of what was uploaded last
+    std::int64_t shows_ = -1;  ///< SparseSeries::shows of the last upload
 };
 
 }  // namespace dustbench::volume

@@ -9,7 +9,7 @@
 
 namespace dustbench::volume {
 
-/// The moment that a grid is, whose first cell has this place on the lattice.
+/// The sparse moment of a grid whose first cell is at this place on the lattice.
 inline void fill(SparseMoment& moment, const raycast::TestGrid& grid, const glm::ivec3& firstCell) {
     moment.cells = grid.cells;
     moment.spacingMetres = grid.spacingMetres;

@@ -1,4 +1,4 @@
-// Collision of 40,000 particles around the surface of the bunny, subdivided twice: all three steps.
+// Benchmarks all three steps of collision for 40,000 particles around the surface of the bunny, subdivided twice.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>

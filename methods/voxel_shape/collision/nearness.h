@@ -1,4 +1,4 @@
-// A grid of flags around a mesh that tells in one look-up whether a point is in or near the solid.
+// A grid of flags around a mesh: one look-up shows whether a point is in or near the solid.
 //
 // The flag of a cell is set if the solid, including its interior, comes within `reach` of the cell's centre. The test
 // is conservative: some other cells are flagged too, but none is missed. A voxel whose centre lies in a cell without
@@ -15,7 +15,7 @@ namespace dustbench::voxel_shape {
 
 class Nearness {
  public:
-    /// Uses cells of `cellMetres`, or larger ones so that at most 128 lie along the mesh's longest side. `reachMetres`:
+    /// Uses cells of `cellMetres`, or larger ones so that at most 128 fit along the mesh's longest side. `reachMetres`:
     /// the reach that callers need; half a cell's diagonal is added to it. A mesh that encloses nothing is represented
     /// by its surface only.
     Nearness(const scene::Mesh& mesh, float cellMetres, float reachMetres);

@@ -1,9 +1,9 @@
 // Keeps a shape's particles out of the scene's solids, in three steps: the shape's bounding box; then its voxels, which
 // are switched off while they touch a solid; then the path of each particle near a solid against the solid's triangles.
 //
-// A particle that hits a triangle stops one millimetre before it. The normal component of its velocity is reversed and
-// scaled by `restitution`; the tangential component is scaled by 1 − `friction`. In addition it gets up to `scatter`
-// times the normal speed in a random tangential direction of its own, so that a shape bursts.
+// A particle that hits a triangle stops one millimetre in front of it. The normal component of its velocity is reversed
+// and scaled by `restitution`; the tangential component is scaled by 1 − `friction`. In addition it gets up to
+// `scatter` times the normal speed in its own random tangential direction, so that a shape bursts.
 //
 // Units: m, s. Frame: world. Owns: the solids' tree and grids. Threads: one caller at a time; uses the current oneTBB
 // arena; the result does not depend on the number of threads.
@@ -33,7 +33,7 @@ class ShapeCollision {
     /// `voxelMetres`: the largest edge that the shape's voxels will have in the world.
     ShapeCollision(const scene::Scene& scene, float voxelMetres, const Impact& impact);
 
-    /// The first two steps: switches off the voxels that touch a solid, and the others on.
+    /// The first two steps: switches off the voxels that touch a solid, and switches on the others.
     void switchVoxels(VoxelGrid& grid, const Pose& pose);
     /// The third step, right after the particles moved by `stepSeconds` of their velocity. Returns the number of hits.
     std::size_t stopParticles(ShapeParticles& particles, float stepSeconds) const;

@@ -10,7 +10,7 @@
 
 namespace dustbench::voxel_shape {
 
-/// Applies the law to the particles of `moved` that lie in a voxel of `by` that is on; both shapes are at the same
+/// Applies the law to the particles of `moved` in voxels of `by` that are switched on; both shapes must be at the same
 /// time. `share`: s. Returns the number of those particles.
 std::size_t drawAlong(ShapeSystem& moved, const ShapeSystem& by, float share);
 

@@ -67,7 +67,7 @@ TEST(Crossing, GivesTheVelocityOfTheOthersMatterWhereTheParticleIs) {
         inItsBox += box;
     }
     EXPECT_GT(drawn, 100);
-    EXPECT_GT(inItsBox - drawn, 100) << "in the hollow, in the corners, in the voxel that is off";
+    EXPECT_GT(inItsBox - drawn, 100) << "in the hollow, in the corners, in the switched-off voxel";
 }
 
 TEST(Crossing, LeavesAloneWhoMovesAsTheOtherDoes) {

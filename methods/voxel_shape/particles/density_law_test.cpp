@@ -1,4 +1,4 @@
-// Which particles voxels admit: up to their maximum density, or, as in the paper, all.
+// Tests which particles voxels admit: up to their maximum density, or all, as in the paper.
 #include <gtest/gtest.h>
 
 #include "methods/voxel_shape/particles/shape_system.h"
@@ -91,7 +91,7 @@ TEST(DensityLaw, OfThePaperLetsAParticleIntoAFullVoxelWhereItLivesAndGivesNoBirt
     EXPECT_EQ(system.particles().place[0], 1u);
     EXPECT_EQ(store.age[0], 0);
     EXPECT_EQ(system.grid().voxels()[0].density, 1u) << "its vacancy was filled";
-    EXPECT_EQ(system.grid().voxels()[1].density, 2u) << "its guest's voxel has two";
+    EXPECT_EQ(system.grid().voxels()[1].density, 2u) << "the voxel that its particle entered has two";
     EXPECT_EQ(system.particles().size(), 3u);
 }
 

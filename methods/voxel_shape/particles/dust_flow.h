@@ -16,7 +16,7 @@ class DustFlow {
  public:
     explicit DustFlow(MemoryLedger& ledger) : nodes_(ledger.account("flow")) {}
 
-    /// Applies the equation above; shape and dust are at the same time. `share`: s.
+    /// Applies the equation above; shape and dust must be at the same time. `share`: s.
     void drawAlong(ShapeSystem& moved, const Puffs& dust, float share);
 
  private:

@@ -106,7 +106,7 @@ TEST(FieldFlow, OfAShapesFrameMovesTurnsAndGrowsWithIt) {
     for (std::size_t i = 0; i < store.size(); ++i) {
         const glm::vec3 from = store.position(i) - pose.position;
         const float ownX = -from.z / 2;
-        if (std::abs(ownX) > 1.37f) continue;  // of the cells at the border the value is not linear
+        if (std::abs(ownX) > 1.37f) continue;  // in cells at the border the value is not linear
         ASSERT_NEAR(store.velocityX[i], 3 + 0.5f * from.z, 1e-4f);
         ASSERT_NEAR(store.velocityY[i], 2 * ownX, 1e-4f);
         ASSERT_NEAR(store.velocityZ[i], -2 - 0.5f * from.x, 1e-4f);

@@ -1,4 +1,5 @@
-// What moves all particles of a shape, besides the forces of the voxels, and which particles voxels admit.
+// Influences on the motion of all particles of a shape, in addition to the voxels' forces, and the rule for admission
+// to voxels.
 //
 // Units: m, s. Frame: world. Source: JuckelBeckhaus2007, 5.1. Departs: the paper gives no formulas.
 #pragma once

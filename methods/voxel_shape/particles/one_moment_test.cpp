@@ -1,4 +1,5 @@
-// Particles and lattice are evaluated at the same time: a moving shape holds the same particles as one at rest.
+// Tests that particles and lattice are evaluated at the same time: a moving shape holds the same particles as one at
+// rest.
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
@@ -38,7 +39,7 @@ glm::mat3 rightAngles(Random& random) {
     return rotation;
 }
 
-/// Returns random voxels of a box. The edge is exact in floats; each voxel has a look and a maximum density of its own.
+/// Returns random voxels of a box. The edge is exact in floats; each voxel has its own look and maximum density.
 VoxelGrid anyShape(Random& random) {
     const Lattice lattice{{between(random, 2, 9), between(random, 2, 9), between(random, 2, 9)},
                           glm::vec3(between(random, -4, 4), between(random, -4, 4), between(random, -4, 4)) / 4.0f,
@@ -67,7 +68,7 @@ struct Newborn {
 };
 
 /// Rounds newborns to a lattice that is fine enough not to matter and coarse enough that no sum is rounded. Returns
-/// their places; or, given `like`, moves them to those places, from which only rounding may separate them.
+/// their places. If `like` is given, moves them to those places instead, from which they may differ only by rounding.
 std::vector<Newborn> settle(ShapeSystem& system, std::uint64_t born, const std::vector<Newborn>* like) {
     particles::ParticleStore& s = system.particles().store;
     const Pose& pose = system.pose();
@@ -91,7 +92,7 @@ std::vector<Newborn> settle(ShapeSystem& system, std::uint64_t born, const std::
     return list;
 }
 
-/// Compares everything except places and velocities bit by bit, and these relative to the shape's.
+/// Compares places and velocities relative to the shape's, and everything else bit by bit.
 void expectSame(const ShapeSystem& still, const ShapeSystem& moving) {
     const ShapeParticles &a = still.particles(), &b = moving.particles();
     ASSERT_EQ(a.size(), b.size());

@@ -63,7 +63,7 @@ void copyVoxels(const ShapeParticles& particles, std::size_t first, std::size_t 
 }
 
 /// Finds the voxel that contains each particle, by one matrix multiplication. If the voxel is unchanged, the gathered
-/// flags tell whether the particle may be in it.
+/// flags show whether the particle may be in it.
 void lookUp(const ShapeParticles& particles, std::size_t first, std::size_t count, const KernelStep& step,
             Scratch& scratch) {
     const float* const __restrict x = particles.store.x.data() + first;

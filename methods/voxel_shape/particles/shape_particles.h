@@ -12,8 +12,8 @@
 namespace dustbench::voxel_shape {
 
 struct ShapeParticles {
-    /// Flag in `place`: the particle is in no active voxel, or waits at a full one. The other bits then name the last
-    /// voxel that it was in or met.
+    /// Flag in `place`: the particle is not in an active voxel, or waits at a full one. The other bits then identify
+    /// the last voxel that it was in or met.
     static constexpr std::uint32_t outside = 0x80000000u;
 
     explicit ShapeParticles(MemoryLedger& ledger);

@@ -14,7 +14,7 @@ namespace {
 /// Particles per block of a thread: smaller blocks do not pay off, and the kernel prefetches only within a block.
 constexpr std::size_t blockSize = 4 * particles::chunkSize;
 
-/// Notes the flagged particles of a block, chunk by chunk.
+/// Lists the flagged particles of a block, chunk by chunk.
 void note(particles::NotedParticles& list, std::size_t first, std::span<const std::uint8_t> flags) {
     for (std::size_t done = 0; done < flags.size(); done += particles::chunkSize)
         list.note((first + done) / particles::chunkSize, flags.data() + done,

@@ -28,10 +28,10 @@ class ShapeSystem {
     /// on or off for `pose`.
     void step(const Pose& pose, const Motion& motion, float stepSeconds);
     /// Updates every particle: looks up its voxel, moves it, changes its look, and lets it enter a new voxel that has
-    /// room. Notes the particles that die. Particles and lattice are those that the last `replace` left.
+    /// room. Records the particles that die. Particles and lattice are those left by the last `replace`.
     void live(const Motion& motion, float stepSeconds);
-    /// Removes the dead that `live` noted, then emits new particles. `pose`: the pose at the time to which `live` moved
-    /// them.
+    /// Removes the dead particles recorded by `live`, then emits new ones. `pose`: the pose at the time to which `live`
+    /// moved them.
     void replace(const Pose& pose, const Motion& motion, float stepSeconds);
 
     [[nodiscard]] const ShapeParticles& particles() const { return particles_; }

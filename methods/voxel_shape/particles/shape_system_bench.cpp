@@ -1,4 +1,4 @@
-// A step of particles with look-up, interpolation and one force, on grids of 16³ to 256³.
+// Benchmarks a step of particles with look-up, interpolation and one force, on grids of 16³ to 256³.
 #include <benchmark/benchmark.h>
 
 #include <memory>

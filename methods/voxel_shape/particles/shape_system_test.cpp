@@ -166,7 +166,7 @@ TEST(ShapeSystem, PutsAParticleOutOfAVoxelThatIsSwitchedOffAndLetsItInOnceItIsOn
         EXPECT_EQ(system.particles().place[0], ShapeParticles::outside);
         EXPECT_EQ(voxel.density, 0u);
     }
-    EXPECT_NEAR(system.particles().store.age[0], 2 * dt, 1e-6f) << "it ages from when it is outside";
+    EXPECT_NEAR(system.particles().store.age[0], 2 * dt, 1e-6f) << "it ages from the moment that it is outside";
     voxel.setSwitchedOff(false);
     system.step({}, withoutBirths(), dt);
     EXPECT_EQ(system.particles().place[0], 0u);

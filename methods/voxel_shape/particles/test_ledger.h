@@ -1,4 +1,4 @@
-// For the tests of this folder: a ledger for what they make, and the step that most of them take.
+// A ledger and the usual time step for the tests in this folder.
 #pragma once
 
 #include "methods/kit/memory/memory_ledger.h"
@@ -7,7 +7,7 @@ namespace dustbench::voxel_shape {
 
 inline constexpr float dt = 1.0f / 60;
 
-/// One for the whole program.
+/// One ledger for the whole program.
 inline MemoryLedger& ledger() {
     static MemoryLedger one;
     return one;

@@ -1,7 +1,7 @@
 // The paper's voxeliser on the CPU: marks a voxel if the line along z through its centre meets the mesh inside it.
 //
-// The reference for SlicePass, which draws the same layer by layer. Misses triangles that are edge-on, and possibly
-// parts thinner than a voxel: this error is the paper's own.
+// The reference implementation of SlicePass, which draws the same layer by layer. Misses triangles that are edge-on,
+// and possibly parts thinner than a voxel, as does the paper's algorithm.
 //
 // Frame: the mesh's own. Threads: uses the current oneTBB arena; the result does not depend on the number of threads.
 // Source: JuckelBeckhaus2007, 4.2.

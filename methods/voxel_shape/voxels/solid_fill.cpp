@@ -33,8 +33,8 @@ void spread(const Lattice& lattice, std::vector<std::uint32_t> front, const Take
 }
 
 /// 1 for each cell that is reachable from outside the lattice through unmarked cells. Sweeps row by row, forwards and
-/// backwards, each cell from its neighbours, until a sweep finds no new cell. Few sweeps suffice, since few shapes
-/// wind.
+/// backwards, each cell from its neighbours, until a sweep finds no new cell. Few sweeps suffice, since few shapes have
+/// winding cavities.
 class OutsideSweeps {
  public:
     explicit OutsideSweeps(const MarkedVoxels& surface)

@@ -15,7 +15,7 @@ namespace dustbench::voxel_shape {
 bool markInside(MarkedVoxels& surface);
 
 /// Marks the cells that `surface` (every touched voxel marked) encloses. Returns false if there are none. Inner voxels
-/// take the colour of the surface voxel that is the fewest steps away.
+/// take the colour of the surface voxel that is nearest in steps.
 bool fillInside(MarkedVoxels& surface);
 
 /// Calls fillInside for the surface of this mesh. Throws InputError if the mesh is open and encloses nothing.

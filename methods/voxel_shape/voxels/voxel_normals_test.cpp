@@ -20,7 +20,7 @@ TEST(VoxelNormals, OfASphereLookAwayFromItsMiddle) {
             EXPECT_GT(glm::dot(normals[k], radial), 0.7f) << "within 45 degrees";
             sum += static_cast<double>(glm::dot(normals[k], radial));
         }
-        EXPECT_GT(sum / static_cast<double>(normals.size()), 0.96) << "within 16 degrees on the average";
+        EXPECT_GT(sum / static_cast<double>(normals.size()), 0.96) << "within 16 degrees on average";
     }
 }
 

@@ -1,4 +1,4 @@
-// Voxelising and filling of the bunny, if data/shapes/fetch_bunny.py has fetched it, otherwise of the rock.
+// Benchmarks voxelising and filling of the bunny if data/shapes/fetch_bunny.py has fetched it, otherwise of the rock.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>

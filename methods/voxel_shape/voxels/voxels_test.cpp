@@ -102,7 +102,7 @@ TEST(Slices, OfTheGpuLieInTheConservativeSetAndAgreeWithTheirCopyOnTheCpu) {
         const Overlap both = overlapOf(drawn, copy), missed = overlapOf(whole, drawn);
         EXPECT_EQ(overlapOf(drawn, whole).onlyFirst, 0u) << name;
         EXPECT_GE(static_cast<double>(both.both) / static_cast<double>(both.either), 0.99) << name;
-        // The paper's own error: parts that are edge-on or lie between the pixel centres.
+        // The error of the paper's algorithm: parts that are edge-on or between the pixel centres.
         const double share = static_cast<double>(missed.onlyFirst) / static_cast<double>(whole.count());
         ::testing::Test::RecordProperty(std::string("missed_by_slices_") + name, std::to_string(share));
         EXPECT_GT(share, 0) << name;

@@ -2,12 +2,12 @@
 //
 // chartKit.build(report, chart) gives {spec, config, notes, table, state} or {empty: reason}; `chart` is {id, kind,
 // experiment} with any of {column, of, against, x, xLog, yLog, world, hidden, width, theme} set over it. Kinds: `ratio`, the time of
-// each variant over that of another on the same machine; `times`, what each machine measured.
+// each variant over that of another on the same machine; `times`, the measured values of each machine.
 const machineData = (() => {
     const { distinct } = chartData;
     const together = 'all together';
     const hasInterval = ([, low, high]) => low !== null && high !== null;
-    /// The other way round: who was faster is slower.
+    /// The ratio with its sides swapped: faster becomes slower.
     const inverted = side => {
         if (!side || side[0] === null) return side;
         const [ratio, low, high, pairs, verdict, reason] = side;
@@ -34,7 +34,7 @@ const machineData = (() => {
     /// Variants with a ratio to any other.
     const comparedVariants = experiment => experiment.variants.map((variant, index) => index)
         .filter(index => experiment.ratios.some(item => item.of === index || item.with === index));
-    /// Long names, shortened in the middle where they stay apart.
+    /// Long names, shortened in the middle if they remain distinct.
     const shortLabels = report => {
         const labels = report.data.machines.map(machine => machine.label);
         const short = labels.map(label => (label.length > 34 ? `${label.slice(0, 18)}…${label.slice(-13)}` : label));
@@ -51,7 +51,7 @@ const chartKit = (() => {
     const rowsForm = 'rows';
     const margin = 1.02;
 
-    /// By the labels in their order, so that it does not matter in which order the folders were given.
+    /// Colours by the sorted labels, so that the order of the folders does not matter.
     const styleOf = (report, machine, theme) => {
         const labels = report.data.machines.map(item => item.label).sort();
         const place = labels.indexOf(report.data.machines[machine].label);
@@ -75,7 +75,7 @@ const chartKit = (() => {
         const load = chart.x === rowsForm ? undefined : loads.find(axis => axis.name === chart.x) || loads[0];
         return { column, load };
     };
-    /// The worlds without the load, one of which is shown; `asked` or the one with most points.
+    /// The worlds without the load. One is shown: `asked`, or the one with the most points.
     const worldOf = (points, asked) => {
         const worlds = distinct(points.map(point => point.rest));
         const count = world => points.filter(point => point.rest === world).length;
@@ -166,7 +166,7 @@ const chartKit = (() => {
     const buildRatio = (report, chart) => {
         const { experiment } = chart;
         const { column, load } = choose(chart, columnsOfRatios(experiment));
-        if (!column) return { empty: 'In no world are there two methods or settings with times.' };
+        if (!column) return { empty: 'No world has times of two methods or settings.' };
         const asked = Number(chart.against ?? experiment.reference);
         const reference = comparedVariants(experiment).includes(asked) ? asked : experiment.reference;
         const all = ratioPoints(report, chart, experiment, column, reference, load);
@@ -174,7 +174,7 @@ const chartKit = (() => {
         const { worlds, world } = worldOf(all, chart.world);
         const points = all.filter(point => point.rest === world);
         const name = `${columnOf(report, column).name}, × that of ${experiment.variants[reference].label}`;
-        // Rows have their values across.
+        // Rows show their values along x.
         const log = (load ? chart.yLog : chart.xLog) ?? spans(points.map(point => point.y), 3);
         const xLog = load ? chart.xLog ?? spans(points.map(point => point.x), 15) : log;
         const shape = { bands: [band], zero: false };
@@ -182,7 +182,7 @@ const chartKit = (() => {
             : rows(report, chart, points, { ...shape, xTitle: 'ratio', log });
         spec.description = `${name}, within each machine`;
         return {
-            spec, notes: [`${words.upper(name)}: below 1 it takes less time. Each ratio is formed within one machine. Grey: the same within 2\u00a0%.`],
+            spec, notes: [`${words.upper(name)}: below 1 is faster. Each ratio compares two methods on one machine. Grey: the same within 2\u00a0%.`],
             table: tableOf(report, points, 'ratio', '', load),
             state: { column, against: String(reference), x: load ? load.name : rowsForm, worlds, world, xLog, yLog: load ? log : undefined },
         };
@@ -203,7 +203,7 @@ const chartKit = (() => {
             return {
                 machine: item.machine, panel, rest: worldText(experiment, item.world, load?.name), x: load ? Number(experiment.worlds[item.world][at]) : null, y, low, high, raw: item.values,
                 text: withUnit(item.values[0], info.unit),
-                tip: { title: `${panel}, ${report.data.machines[item.machine].label}`, [info.name]: withUnit(item.values[0], info.unit), 'from … to': `${withUnit(item.values[1], info.unit)} to ${withUnit(item.values[2], info.unit)}`, of, ...(sure ? { interval: sure } : {}) },
+                tip: { title: `${panel}, ${report.data.machines[item.machine].label}`, [info.name]: withUnit(item.values[0], info.unit), range: `${withUnit(item.values[1], info.unit)} to ${withUnit(item.values[2], info.unit)}`, 'measured in': of, ...(sure ? { interval: sure } : {}) },
             };
         });
         if (!all.length) return missing;
@@ -212,14 +212,14 @@ const chartKit = (() => {
         const log = (load ? chart.yLog : chart.xLog) ?? spans(here.map(point => point.y), 60);
         const xLog = load ? chart.xLog ?? spans(here.map(point => point.x), 15) : log;
         const points = here.filter(point => (!log || point.low > 0) && (!load || !xLog || point.x > 0));
-        if (!points.length) return { empty: 'No value is above 0; a logarithmic scale cannot show it.' };
+        if (!points.length) return { empty: 'A logarithmic scale cannot show these values: none is above 0.' };
         const shape = { bands: [], zero: true };
         const title = axisTitle(info.name, info.unit);
         const spec = load ? lines(report, chart, points, { ...shape, xTitle: axisTitle(load.name, load.unit === load.name ? '' : load.unit), yTitle: title, xLog, yLog: log })
             : rows(report, chart, points, { ...shape, xTitle: title, log });
         spec.description = `${info.name} of each machine`;
         return {
-            spec, notes: ['Times of different machines: the distance between two lines is that of the machines and their programs, not of methods.'], table: tableOf(report, points, column, info.unit, load),
+            spec, notes: ['Times of different machines: two lines differ because of the machines and their builds, not because of the methods.'], table: tableOf(report, points, column, info.unit, load),
             state: { column, x: load ? load.name : rowsForm, worlds, world, xLog, yLog: load ? log : undefined },
         };
     };

@@ -1,9 +1,9 @@
 // Builds the page of several machines from the data in it.
 //
 // The data (bench/report/machines/machines_json.cpp): machines, each a line of the charts, and folders, each with claims; hardware, rows of
-// [values by machine]; remarks: apart, programs, notes, and missing cells; experiments with axes, variants, worlds (a value for each axis),
-// ratios of variants (by world and all together, a side for each machine) and values of each machine; claims, with a result for each folder;
-// papers; facts, the columns that methods declare.
+// [values by machine]; remarks: apart, programs, notes, and missing configurations; experiments with axes, variants, worlds (a value for each
+// axis), ratios of variants (by world and all together, a side for each machine) and values of each machine; claims, with a result for each
+// folder; papers; facts, the columns that methods declare.
 (() => {
     const read = id => JSON.parse(document.getElementById(id).textContent);
     const report = { data: read('report-data'), columns: read('report-columns'), specifications: read('report-charts') };
@@ -23,7 +23,7 @@
     const scales = [['false', 'linear'], ['true', 'logarithmic']];
     const againstLoads = experiment => [...loadsOf(experiment).map(axis => [axis.name, axis.name]), [chartKit.rowsForm, 'all settings (rows)']];
 
-    /// What the first ratio of each variant says, in numbers.
+    /// How often each agreement occurs among the first ratios of the variants.
     const agreementCounts = () => {
         const counts = new Map();
         for (const experiment of data.experiments)
@@ -43,13 +43,13 @@
         })]);
     };
 
-    /// Machines by what each says: `faster on lab; slower on laptop and vm`.
+    /// Machines by verdict: `faster on lab; slower on laptop and vm`.
     const saidBy = sides => {
         const said = new Map();
         sides.forEach((side, machine) => side && side[0] !== null && said.set(side[4], [...(said.get(side[4]) || []), labels[machine]]));
         return [...said].map(([verdict, names]) => `${chartKit.verdictText(verdict)} on ${words.listOf(names)}`).join('; ');
     };
-    /// The ratios on which machines differ, against what each experiment opens on.
+    /// The ratios on which machines differ, against the reference that each experiment opens on.
     const differences = () => data.experiments.flatMap(experiment => columnsOfRatios(experiment).flatMap(column =>
         ratiosAgainst(experiment, column, experiment.reference).map(item => ({ item, row: item.worlds.length > 1 ? item.all : item.worlds[0] }))
             .filter(({ row }) => row.agreement === 'differ').map(({ item, row }) => element('li', {}, [
@@ -65,22 +65,22 @@
         const shared = data.experiments.filter(experiment => experiment.ratios.length).length;
         put(here, element('section', { className: 'answers' }, [
             element('b', { textContent: 'Do the machines agree on which method is faster?' }),
-            shared ? countLine(agreementCounts(), 'ratio') : paragraph('No ratio can be formed: in no world are there two methods or settings with times.'),
+            shared ? countLine(agreementCounts(), 'ratio') : paragraph('No ratio can be formed, because no world has times of two methods or settings.'),
             ...(differing.length ? [element('ul', {}, differing.slice(0, mostDifferences))] : []),
             ...(differing.length > mostDifferences ? [paragraph(`and ${differing.length - mostDifferences} more below`, 'note')] : []),
             ...(data.claims.length ? [countLine(data.claims.reduce((counts, claim) => counts.set(claim.agreement, (counts.get(claim.agreement) || 0) + 1), new Map()), 'claim')] : []),
         ]));
         put(here, element('p', { className: 'across' }, [
             element('b', { textContent: 'Times of different machines are not compared here. ' }),
-            'Ratios are formed within each machine, method against method. The one place with times of several machines in one chart is ',
-            element('a', { href: '#times', textContent: 'Times of each machine' }), ', which says so.',
+            'Each ratio compares two methods on the same machine. Only ',
+            element('a', { href: '#times', textContent: 'Times of each machine' }), ' shows times of several machines in one chart.',
         ]));
         const date = new Date(data.written).toISOString().slice(0, 16).replace('T', ' ');
         put(here, paragraph(`${plural(data.machines.length, 'machine')}; ${plural(data.experiments.length, 'experiment')}; written ${date} UTC by dustbench ${data.version}.`, 'lead'));
         const { apart, programs, notes, missing } = data.remarks;
         const lists = [
-            ['Cannot be compared', apart], ['The programs differ, so ratios may differ whatever the machines', programs],
-            ['To be known', [...notes, ...(missing.length ? [`${plural(missing.length, 'cell is', 'cells are')} not done on every machine: see the list of missing cells`] : [])]],
+            ['Cannot be compared', apart], ['The builds differ, so ratios may differ regardless of the machines', programs],
+            ['Notes', [...notes, ...(missing.length ? [`${plural(missing.length, 'configuration is', 'configurations are')} missing on some machines: see the list of missing configurations`] : [])]],
         ].filter(([, list]) => list.length);
         if (lists.length)
             put(section('problems'), element('aside', { className: 'problems' }, lists.flatMap(([head, list]) => [
@@ -92,7 +92,7 @@
     const addRatios = () => {
         const here = section('ratios');
         const compared = data.experiments.filter(experiment => experiment.ratios.length);
-        if (!compared.length) put(here, paragraph('In no world are there two methods or settings with times.', 'muted'));
+        if (!compared.length) put(here, paragraph('No world has times of two methods or settings.', 'muted'));
         for (const experiment of compared) {
             const card = element('article', { className: 'card', id: `experiment-${experiment.id}` }, [element('h3', { textContent: experiment.title }), paragraph(experiment.summary, 'muted')]);
             put(here, card);
@@ -100,8 +100,8 @@
             const chart = { id: `${experiment.id}-ratios`, kind: 'ratio', experiment };
             cards.add(card, chart, [
                 ['column', 'Show', columnOptions(columns)],
-                ['against', 'against that of', comparedVariants(experiment).map(index => [String(index), experiment.variants[index].label])],
-                ['x', 'over', againstLoads(experiment)], ['xLog', 'across', scales], ['yLog', 'upwards', scales], ['world', 'World', []],
+                ['against', 'relative to', comparedVariants(experiment).map(index => [String(index), experiment.variants[index].label])],
+                ['x', 'over', againstLoads(experiment)], ['xLog', 'x axis', scales], ['yLog', 'y axis', scales], ['world', 'World', []],
             ]);
             const place = element('div');
             put(card, place);
@@ -119,12 +119,12 @@
 
     const addClaims = () => {
         const here = section('claims');
-        if (!data.claims.length) put(here, paragraph('These folders contain no experiment of a paper, so there is no claim to test.', 'muted'));
+        if (!data.claims.length) put(here, paragraph('These folders contain no experiments from a paper, so there are no claims to test.', 'muted'));
         for (const paper of new Set(data.claims.map(claim => claim.paper)))
             put(here, element('article', { className: 'card' }, [
                 element('h3', { textContent: data.papers[paper] || paper }),
                 machineTables.claims(report, data.claims.filter(claim => claim.paper === paper)),
-                paragraph('Each verdict is that of the folder\'s own report. Agree: one verdict in all folders that test the claim. Open: unresolved or untestable in some.', 'note'),
+                paragraph('Each verdict is that of the folder\'s own report. Agree: the same verdict in all folders that test the claim. Open: unresolved or untestable in some folders.', 'note'),
             ]));
     };
 
@@ -132,35 +132,35 @@
         const here = section('times');
         put(here, element('p', { className: 'across' }, [
             element('b', { textContent: 'These are times of different machines in one chart. ' }),
-            'They say how fast each machine is with its program. They do not say which method is faster: for that, see ', element('a', { href: '#ratios', textContent: 'the ratios' }), '.',
+            'They show how fast each machine is with its build. They do not show which method is faster: for that, see ', element('a', { href: '#ratios', textContent: 'the ratios' }), '.',
         ]));
         const timed = data.experiments.filter(experiment => experiment.values.length);
-        if (!timed.length) put(here, paragraph('No run measured times.', 'muted'));
+        if (!timed.length) put(here, paragraph('No run has measured times.', 'muted'));
         for (const experiment of timed) {
             const card = element('article', { className: 'card' }, [element('h3', { textContent: experiment.title })]);
             put(here, card);
             cards.add(card, { id: `${experiment.id}-times`, kind: 'times', experiment }, [
-                ['column', 'Show', columnOptions(columnsOfTimes(experiment))], ['x', 'over', againstLoads(experiment)], ['xLog', 'across', scales], ['yLog', 'upwards', scales], ['world', 'World', []],
+                ['column', 'Show', columnOptions(columnsOfTimes(experiment))], ['x', 'over', againstLoads(experiment)], ['xLog', 'x axis', scales], ['yLog', 'y axis', scales], ['world', 'World', []],
             ]);
         }
     };
 
     const addMissing = () => {
         const here = section('missing');
-        if (!data.remarks.missing.length) put(here, paragraph('None beyond what the top of the page names: every other cell is done on every machine.', 'muted'));
+        if (!data.remarks.missing.length) put(here, paragraph('None, except for those that the top of the page explains. Every other configuration was measured on every machine.', 'muted'));
         else put(here, element('article', { className: 'card' }, [
-            paragraph('A cell is all runs that differ only in the repetition. Listed is what some machines have and others lack, where no line at the top of the page says why.', 'muted'), machineTables.missing(report),
+            paragraph('A configuration is all runs that differ only in the repetition. The table lists the configurations that some machines have and others lack, unless a line at the top of the page explains why.', 'muted'), machineTables.missing(report),
         ]));
     };
 
     const addDefinitions = () => {
         put(section('definitions'), element('article', { className: 'card' }, [
-            paragraph('Ratio: the time of a method, with its settings, over that of another in the same folder on the same machine: run with run of the same world, parameters, seed and repetition. ' +
-                'Shown is the geometric mean with the 95\u00a0% interval of Student\'s t over the logarithms of the paired runs; where all machines share several seeds, over the seeds, each the mean of its repetitions. ' +
-                'Faster: the interval lies wholly below 1/1.02; slower: wholly above 1.02; same: between; unresolved: anything else, and always with fewer than 6 pairs.'),
-            paragraph('All together: each repetition or seed gives one ratio, the geometric mean over the loads and worlds that every machine has which has the two methods at all.'),
-            paragraph('Agree: all machines give one verdict, by intervals that overlap. By another factor: one verdict, but two intervals do not overlap. Differ: two verdicts. Open: unresolved on a machine, and none contradicts.'),
-            paragraph('Times: medians over the repetitions, or over the medians of several seeds, with the interval of the order statistics.'),
+            paragraph('Ratio: the time of a method, with its settings, over that of another in the same folder on the same machine. Runs are paired by world, parameters, seed and repetition. ' +
+                'The value is the geometric mean, with the 95\u00a0% interval of Student\'s t over the logarithms of the paired runs. If all machines share several seeds, the interval is over the seeds, each the mean of its repetitions. ' +
+                'Faster: the interval lies entirely below 1/1.02. Slower: entirely above 1.02. Same: between. Unresolved: anything else, and always with fewer than 6 pairs.'),
+            paragraph('All together: each repetition or seed gives one ratio, the geometric mean over the loads and worlds that all machines with both methods share.'),
+            paragraph('Agree: all machines give the same verdict, and their intervals overlap. By another factor: the same verdict, but two intervals do not overlap. Differ: two verdicts. Open: unresolved on a machine, and no machines contradict each other.'),
+            paragraph('Times: medians over the repetitions, or over the medians of several seeds, with intervals from the order statistics.'),
             element('details', {}, [element('summary', { textContent: 'Licence of the chart library' }), section('licence').content.cloneNode(true)]),
         ]));
     };

@@ -1,4 +1,4 @@
-// The tables of several machines: hardware, ratios, claims, and what is missing.
+// The tables of several machines: hardware, ratios, claims, and missing configurations.
 const machineTables = (() => {
     const { element, put, paragraph, plural, table } = pageKit;
     const { columnOf, distinct } = chartData;
@@ -8,7 +8,7 @@ const machineTables = (() => {
     const agreementClass = text => ({ agree: 'agree', 'agree, by another factor': 'factor', differ: 'differ', open: 'open' }[text] || 'alone');
     const agreementMark = text => element('span', { className: `agreement ${agreementClass(text)}`, textContent: text });
     const machineName = machine => element('span', { className: 'machine-name', textContent: machine.label, dataset: { machine: machine.label } });
-    /// The heads of columns of machines, in their colours.
+    /// Puts the machines' names, in their colours, into the column heads.
     const nameHeads = (place, machines, from) => {
         const heads = place.querySelectorAll('thead th');
         machines.forEach((machine, index) => heads[index + from].replaceChildren(machineName(machine)));
@@ -31,18 +31,18 @@ const machineTables = (() => {
             element('span', { className: 'said', textContent: said }),
         ]);
     };
-    /// Every ratio against one variant: all worlds in common, and folded away each of them.
+    /// Every ratio against one variant: over all common worlds and, folded, for each world.
     const ratios = (report, experiment, column, reference) => {
         const { machines } = report.data;
         const items = ratiosAgainst(experiment, column, reference);
-        const heads = [['of', 'method'], ['machines'], ...machines.map(() => ['', 'number'])];
+        const heads = [['method', 'method'], ['machines'], ...machines.map(() => ['', 'number'])];
         const rowOf = (text, row) => [text, agreementMark(row.agreement), ...row.sides.map(ratioCell)];
         const alone = items.every(item => item.worlds.length === 1);
         const summary = items.map(item => rowOf(experiment.variants[item.variant].label, item.worlds.length > 1 ? item.all : item.worlds[0]));
         const place = element('div', {}, [nameHeads(table(heads, summary, 'ratios'), machines, 2)]);
         const counts = distinct(items.filter(item => item.worlds.length > 1).map(item => item.common));
         const over = counts.length === 1 ? `${plural(counts[0], 'load or world', 'loads and worlds')} that every machine has` : 'the loads and worlds that every machine has';
-        put(place, paragraph(`${words.upper(columnOf(report, column).name)} over that of ${experiment.variants[reference].label}${alone ? '' : `; all together: the geometric mean over ${over}`}.`, 'note'));
+        put(place, paragraph(`${words.upper(columnOf(report, column).name)} relative to that of ${experiment.variants[reference].label}${alone ? '' : `; all together: the geometric mean over ${over}`}.`, 'note'));
         const rest = items.filter(item => item.worlds.length > 1);
         if (rest.length) {
             const rows = rest.flatMap(item => item.worlds.map(row => rowOf(`${experiment.variants[item.variant].label} at ${worldText(experiment, row.world)}`, row)));
@@ -76,10 +76,10 @@ const machineTables = (() => {
         const list = data.remarks.missing;
         const labelsOf = indices => indices.map(index => data.machines[index].label).join(', ');
         const rows = list.map(item => [item.cell, labelsOf(item.on), item.lacking.map(([machine, why]) => `${data.machines[machine].label}: ${why}`).join('; ')]);
-        const heads = [['cell', 'break'], ['done on'], ['not on', 'break']];
+        const heads = [['configuration', 'break'], ['measured on'], ['missing on', 'break']];
         const first = 20;
         const place = element('div', {}, [table(heads, rows.slice(0, first))]);
-        if (rows.length > first) put(place, element('details', {}, [element('summary', { textContent: plural(rows.length - first, 'more cell') }), table(heads, rows.slice(first))]));
+        if (rows.length > first) put(place, element('details', {}, [element('summary', { textContent: plural(rows.length - first, 'more configuration') }), table(heads, rows.slice(first))]));
         return place;
     };
     return { hardware, ratios, claims, missing, agreementMark };

@@ -1,8 +1,8 @@
 #!/bin/bash
-# Our own readers under Clang's libFuzzer, AddressSanitizer and UndefinedBehaviorSanitizer, each for a while, beginning with
-# delivered files. What is new for a reader's branches is kept; what fails stays in FOLDER/findings.
+# Runs our own readers under Clang's libFuzzer, AddressSanitizer and UndefinedBehaviorSanitizer for a while, starting with delivered
+# files. Inputs that reach new branches are kept; failures are stored in FOLDER/findings.
 #   coverage_guided.sh SECONDS FOLDER [READER...]       readers: toml csv obj ply stl vti; the seed is the clock's unless SEED gives it
-#   coverage_guided.sh valgrind FOLDER [READER...]      reads all that was kept once more, without sanitizers, under valgrind
+#   coverage_guided.sh valgrind FOLDER [READER...]      reads all kept inputs again under valgrind, without sanitizers
 set -euo pipefail
 root="$(cd "$(dirname "$0")/../../.." && pwd)"
 what="$1"

@@ -1,5 +1,5 @@
-// For Clang's libFuzzer: our own readers of text in memory, of which DUSTBENCH_FUZZ_READER names one. A text is read,
-// or refused by InputError; anything else is a finding.
+// Target for Clang's libFuzzer: our own readers of text, selected by DUSTBENCH_FUZZ_READER. A text must be read or
+// refused with InputError; anything else is a finding.
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
@@ -61,7 +61,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 }
 
 #ifdef DUSTBENCH_ALONE
-/// Reads the files named.
+/// Reads the given files.
 int main(int count, char** names) {
     for (int n = 1; n < count; ++n) {
         std::ifstream file(names[n], std::ios::binary);

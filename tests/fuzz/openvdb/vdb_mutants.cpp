@@ -1,11 +1,11 @@
-// Reads mutants of OpenVDB's and NanoVDB's files as readVectors(), readVolume(), readVdbPoints() and a sparse volume
-// do. The program dustbench_vdb_reader is replaced by a fork of this process, in which OpenVDB is loaded already and
-// which reads file after file, until one ends it.
+// Reads mutated OpenVDB and NanoVDB files with readVectors(), readVolume(), readVdbPoints() and a sparse volume. A fork
+// of this process, with OpenVDB already loaded, replaces the program dustbench_vdb_reader and reads file after file
+// until one ends it.
 //
 //     vdb_mutants SEED CASES FOLDER
 //
-// What reads may end in any way, as OpenVDB trusts what it reads; how often it did is counted. This process must read
-// each file, or refuse it in one line. Memory and processor time of a case are limited and reported.
+// The worker may end in any way, because OpenVDB trusts its input; the ends are counted. This process must read each
+// file or refuse it in one line. Memory and processor time of a case are limited and reported.
 #include <fcntl.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/points/PointAttribute.h>
@@ -38,7 +38,7 @@
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/nano_ball.h"
 
-// Of AddressSanitizer's library; GCC 12 brings no header for them.
+// From AddressSanitizer's library; GCC 12 has no header for them.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*allocated)(const volatile void*,
                                                                            std::size_t),  // NOLINT
                                                          void (*freed)(const volatile void*));
@@ -51,11 +51,11 @@ namespace fs = std::filesystem;
 /// How cases ended: "exit 0", "signal 11" …
 std::map<std::string, long> endings;
 
-constexpr int tookTooMuch = 77;      ///< an exit code of the worker's
-constexpr int casesOfAWorker = 500;  ///< then a fresh one: what OpenVDB does not free adds up
+constexpr int tookTooMuch = 77;      ///< an exit code of the worker
+constexpr int casesOfAWorker = 500;  ///< cases per worker: memory that OpenVDB does not free adds up
 
-/// In the worker: memory that was allocated since the case began and not yet freed, and what it may be at most. Without
-/// sanitizers RLIMIT_DATA is the limit.
+/// In the worker: memory allocated since the start of the case and not yet freed, and its limit. Without sanitizers,
+/// RLIMIT_DATA is the limit.
 std::size_t heldBytes = 0, allowedBytes = 0;
 bool isWorker = false;
 
@@ -87,14 +87,14 @@ struct Request {
     char first[256], second[256];
 };
 
-/// What reads. Owns: the process and its pipes.
+/// The process that reads. Owns: the process and its pipes.
 struct Worker {
     pid_t process = -1;
     int requests = -1, codes = -1, cases = 0;
-    std::string answers;  ///< a FIFO: what dustbench_vdb_reader writes to its output
+    std::string answers;  ///< a FIFO in place of the output of dustbench_vdb_reader
 } worker;
 
-/// Processor time since the worker's start counts, so the limit moves with it.
+/// Processor time counts from the worker's start, so the limit is raised for each case.
 void limitProcessorTime(const std::string& file) {
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
@@ -154,12 +154,12 @@ void startWorker() {
 
 }  // namespace
 
-// Linked with --wrap=waitpid: each case's end passes here.
+// Linked with --wrap=waitpid, to see the end of each case.
 extern "C" pid_t __real_waitpid(pid_t process, int* status, int options);  // NOLINT
 
 namespace {
 
-/// Its status, as waitpid() gives it.
+/// Status of the worker, as from waitpid().
 int endWorker() {
     close(worker.requests);
     close(worker.codes);
@@ -251,7 +251,7 @@ void writePoints(const fs::path& file, int count) {
     openvdb::io::File(file.string()).write({grid});
 }
 
-/// In a child: OpenVDB starts threads, which a fork does not have.
+/// Runs in a child, because OpenVDB starts threads, which a fork does not have.
 void writeOriginals(const fs::path& folder) {
     const pid_t child = fork();
     if (child == 0) {
@@ -318,7 +318,7 @@ int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
     openvdb::initialize();  // once for all workers; it starts no thread
     std::vector<Original> originals = originalsIn(folder);
-    for (const Original& original : originals) original.read(folder / original.name);  // throws if it is refused
+    for (const Original& original : originals) original.read(folder / original.name);  // throws if refused
     endings.clear();
     dustbench::fuzz::Mutation mutate(static_cast<std::uint32_t>(std::atol(argv[1])));
     double slowest = 0;
@@ -337,7 +337,7 @@ int main(int argc, char** argv) {
                 std::printf("finding: case %ld of seed %s: %s\n", n, argv[1], line.c_str());
                 ++findings;
             }
-        }  // anything else ends the program, and the file stays
+        }  // any other exception ends the program, and the file stays
         slowest = std::max(slowest, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
         if ((n + 1) % 20'000 == 0) std::printf("%ld cases\n", n + 1), std::fflush(stdout);
     }
@@ -345,8 +345,8 @@ int main(int argc, char** argv) {
     unlink(worker.answers.c_str());
     rusage used{};
     getrusage(RUSAGE_CHILDREN, &used);
-    std::printf("%ld cases of seed %s, %ld findings; slowest %.2f s; most memory of a worker %ld MB\n", cases, argv[1],
-                findings, slowest, used.ru_maxrss / 1024);
+    std::printf("%ld cases of seed %s, %ld findings; slowest %.2f s; maximum memory of a worker %ld MB\n", cases,
+                argv[1], findings, slowest, used.ru_maxrss / 1024);
     for (const Original& original : originals)
         std::printf("%s: %zu bytes, %ld mutants read\n", original.name.c_str(), original.bytes.size(),
                     original.accepted);

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Mutants of OpenVDB's and NanoVDB's files, under AddressSanitizer and UndefinedBehaviorSanitizer.
-#   vdb_mutants.sh CASES FOLDER        one process a core; the seed is the clock's unless SEED gives it
+# Reads mutated OpenVDB and NanoVDB files under AddressSanitizer and UndefinedBehaviorSanitizer.
+#   vdb_mutants.sh CASES FOLDER        one process per core; the default of SEED is the time
 set -euo pipefail
 cases="$1"
 mkdir -p "$2"
@@ -16,8 +16,8 @@ sources=(tests/fuzz/openvdb/vdb_mutants.cpp methods/contract/errors.cpp
 g++ -std=c++20 -O1 -g1 -I. -DDUSTBENCH_API= -fsanitize=address,undefined -fno-sanitize-recover=all -isystem /usr/include/Imath \
     -Wl,--wrap=waitpid,--wrap=_exit "${sources[@]}" -o "$folder/vdb_mutants" -lopenvdb -ltbb -lImath-3_1 -lfmt -lz -llz4 -lblosc
 
-# What reads is a worker that ends often: what it says is not read, and it counts its memory itself. This process may hold
-# a box of 89 million cells while its vector grows.
+# The worker ends often; its messages are not read, and it counts its memory itself. This process may hold a box of 89 million
+# cells in memory while its vector grows.
 options=detect_leaks=0:symbolize=0:malloc_context_size=0:quarantine_size_mb=1:allocator_may_return_null=1:max_allocation_size_mb=2500
 jobs="$(nproc)"
 for ((job = 0; job < jobs; ++job)); do

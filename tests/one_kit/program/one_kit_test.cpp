@@ -1,4 +1,4 @@
-// A program and a library that it loads, both built on libdustbench_kit.so, have one kit between them.
+// A program and a library that it loads, both linked to libdustbench_kit.so, share one kit.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ std::unique_ptr<Method> makeForeign(const std::string& count) {
     return info.create(values);
 }
 
-/// The program's own, for the library to look through.
+/// A listener of the program, for the library to inspect.
 class Both final : public StageListener, public Method {
  public:
     void begin(Stage) override {}

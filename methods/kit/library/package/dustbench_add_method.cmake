@@ -1,15 +1,15 @@
 # dustbench_add_method(ID [FOLDER folder] [LINK targets…] [TEST_LINK targets…])
 #
-# A folder (this one, unless told) as one in dustbench's own methods/, built to the library ID.dustmethod.so:
-#   *.cpp                          the method: `MethodInfo describe()` in namespace dustbench::ID; may be missing if there are parts
+# Builds a folder (default: the current one), laid out as in dustbench's own methods/, as the library ID.dustmethod.so:
+#   *.cpp                          the method: `MethodInfo describe()` in namespace dustbench::ID; optional with parts
 #   parts/KIND/NAME.cpp            parts of particle systems: `PartInfo describe()` in namespace dustbench::particles::parts::KIND::NAME
-#   *_test.cpp                     tests, also those below parts/: one program `ID_tests`, known to ctest
+#   *_test.cpp                     tests, including those below parts/: one program `ID_tests`, run by ctest
 #   *_bench.cpp                    benchmarks, likewise: one program `ID_bench`
 #   *.vert *.frag *.comp *.glsl    shaders, as constants in "ID_shaders.h"
 # dustbench finds the library in the folders of --method-path or DUSTBENCH_METHOD_PATH.
 set(DUSTBENCH_PACKAGE_FOLDER ${CMAKE_CURRENT_LIST_DIR})
 
-# Writes the source of the library's entry; its folder holds KIND/NAME.cpp for each of PARTS.
+# Writes the source of the library's entry; PARTS_FOLDER contains KIND/NAME.cpp for each part.
 function(dustbench_write_entry ID ENTRY HAS_METHOD PARTS_FOLDER)
   set(DECLARATIONS "")
   set(METHOD "")
@@ -24,7 +24,7 @@ function(dustbench_write_entry ID ENTRY HAS_METHOD PARTS_FOLDER)
   foreach(FILE ${ARGN})
     file(RELATIVE_PATH FILE ${PARTS_FOLDER} ${FILE})
     if(NOT FILE MATCHES "^([a-z]+)/([a-z][a-z0-9_]*)\\.cpp$")
-      message(FATAL_ERROR "parts/${FILE}: a part is a file KIND/NAME.cpp, named in lower case letters, digits and '_'")
+      message(FATAL_ERROR "parts/${FILE}: expected a file KIND/NAME.cpp, named with lower-case letters, digits and '_'")
     endif()
     set(SPACE dustbench::particles::parts::${CMAKE_MATCH_1}::${CMAKE_MATCH_2})
     string(APPEND DECLARATIONS "namespace ${SPACE} {\nPartInfo describe();\n}\n")
@@ -37,7 +37,7 @@ endfunction()
 function(dustbench_add_method ID)
   cmake_parse_arguments(ARG "" "FOLDER" "LINK;TEST_LINK" ${ARGN})
   if(NOT ID MATCHES "^[a-z][a-z0-9_]*$" OR ID MATCHES "_(test|bench)$")
-    message(FATAL_ERROR "dustbench_add_method: got '${ID}', expected lower case letters, digits and '_', and no ending '_test' or '_bench'")
+    message(FATAL_ERROR "dustbench_add_method: got '${ID}', expected lower-case letters, digits and '_', not ending in '_test' or '_bench'")
   endif()
   if(NOT ARG_FOLDER)
     set(ARG_FOLDER .)
@@ -60,7 +60,7 @@ function(dustbench_add_method ID)
     set(HAS_METHOD ON)
   endif()
 
-  # The entry is one of the objects, so that its fingerprint tells the flags of all.
+  # The entry is one of the objects, so that its fingerprint covers the flags of all.
   set(ENTRY ${CMAKE_CURRENT_BINARY_DIR}/${ID}/${ID}_entry.cpp)
   dustbench_write_entry(${ID} ${ENTRY} ${HAS_METHOD} ${FOLDER}/parts ${PARTS})
   set(OBJECTS ${ID}_objects)
@@ -70,7 +70,7 @@ function(dustbench_add_method ID)
     CXX_STANDARD 20 CXX_EXTENSIONS OFF)
   target_include_directories(${OBJECTS} PUBLIC ${FOLDER})
   target_link_libraries(${OBJECTS} PUBLIC dustbench::kit ${ARG_LINK})
-  if(PARTS) # as dustbench's own; none of these changes a result
+  if(PARTS) # as for dustbench's own parts; none of these flags changes a result
     set_source_files_properties(${PARTS} PROPERTIES
       COMPILE_OPTIONS "-fno-trapping-math;-mprefer-vector-width=512;-fno-tree-loop-distribute-patterns")
   endif()
@@ -96,7 +96,7 @@ function(dustbench_add_method ID)
     include(GoogleTest)
     add_executable(${ID}_tests ${TESTS})
     set_target_properties(${ID}_tests PROPERTIES CXX_STANDARD 20 CXX_EXTENSIONS OFF)
-    target_compile_options(${ID}_tests PRIVATE -fPIC) # else it would hold copies of the kit's types
+    target_compile_options(${ID}_tests PRIVATE -fPIC) # otherwise it would contain copies of the kit's types
     target_link_libraries(${ID}_tests PRIVATE ${OBJECTS} ${ARG_TEST_LINK} GTest::gmock GTest::gtest_main)
     gtest_discover_tests(${ID}_tests TEST_PREFIX ${ID}. DISCOVERY_MODE PRE_TEST)
   endif()

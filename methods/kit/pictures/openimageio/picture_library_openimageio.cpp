@@ -28,7 +28,7 @@ std::string oneLine(std::string message) {
     return message.empty() ? "no reason given" : message;
 }
 
-/// The channel that is alpha; -1: none. Of a GIF OpenImageIO 2.4 names the channel after the last one.
+/// The index of the alpha channel; -1: none. For a GIF, OpenImageIO 2.4 returns the index after the last channel.
 int alphaChannelOf(const OIIO::ImageSpec& spec) {
     if (spec.alpha_channel >= 0 && spec.alpha_channel < spec.nchannels) return spec.alpha_channel;
     for (int channel = 0; channel < std::min(spec.nchannels, static_cast<int>(spec.channelnames.size())); ++channel)
@@ -36,7 +36,7 @@ int alphaChannelOf(const OIIO::ImageSpec& spec) {
     return -1;
 }
 
-/// Colours of a profile that is not sRGB, or of other primaries than its, are others than they seem.
+/// Names a colour profile other than sRGB, or primaries other than sRGB's; empty if there are none.
 std::string otherColours(const OIIO::ImageSpec& spec) {
     if (spec.find_attribute("ICCProfile")) {
         const std::string name = spec.get_string_attribute("ICCProfile:profile_description");
@@ -52,12 +52,12 @@ std::string otherColours(const OIIO::ImageSpec& spec) {
     return "";
 }
 
-/// What the file says of its colours; if nothing, integers are encoded and floats are linear.
+/// The encoding stated in the file; by default integers are sRGB-encoded and floats are linear.
 ColourEncoding encodingOf(const OIIO::ImageSpec& spec, std::string_view format) {
     using Kind = ColourEncoding::Kind;
     if (std::string other = otherColours(spec); !other.empty()) return {Kind::unknown, 1, std::move(other)};
     const std::string space = spec.get_string_attribute("oiio:ColorSpace");
-    // Of PNM the library says Rec709 whatever the file is, as also of the floats of a .pfm.
+    // For PNM the library always reports Rec709, even for the floats of a .pfm.
     if (space.empty() || format == "pnm") return {spec.format.is_floating_point() ? Kind::linear : Kind::srgb};
     const auto isOne = [&](std::initializer_list<const char*> names) {
         return std::ranges::any_of(names, [&](const char* name) { return OIIO::Strutil::iequals(space, name); });
@@ -69,13 +69,13 @@ ColourEncoding encodingOf(const OIIO::ImageSpec& spec, std::string_view format) 
     return {Kind::unknown, 1, space};
 }
 
-/// The pixels that a file shows, which may be more or fewer than it holds.
+/// The pixels that a file displays, which may be more or fewer than it stores.
 struct Window {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// The display window of an EXR, and of any other file that has one of another size than its pixels. The offset alone
-/// of a PNG or TIFF is its place on a page.
+/// The display window of an EXR, and of any other file whose display window has a different size than its pixels. In a
+/// PNG or TIFF, an offset alone is a position on a page.
 Window shownBy(const OIIO::ImageSpec& spec, std::string_view format) {
     const bool isWindow = format == "openexr" || spec.full_width != spec.width || spec.full_height != spec.height;
     if (isWindow && spec.full_width > 0 && spec.full_height > 0)
@@ -83,7 +83,7 @@ Window shownBy(const OIIO::ImageSpec& spec, std::string_view format) {
     return {spec.x, spec.y, spec.width, spec.height};
 }
 
-/// What of the pixels lies in the window; the rest of it is black, and clear if there is alpha.
+/// The pixels inside the window; the rest is black, and transparent if there is alpha.
 std::vector<float> filled(const Window& window, const OIIO::ImageSpec& spec, const std::vector<float>& pixels) {
     const auto channels = static_cast<std::ptrdiff_t>(spec.nchannels);
     std::vector<float> values(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height) *
@@ -98,11 +98,11 @@ std::vector<float> filled(const Window& window, const OIIO::ImageSpec& spec, con
     return values;
 }
 
-/// Empty if the file has one picture, else a reason with the names of its parts. A .psd has the whole before its
-/// layers.
+/// Empty if the file has one picture; otherwise a reason with the names of its parts. A .psd stores the merged picture
+/// before its layers.
 std::string severalParts(const std::filesystem::path& file) {
     constexpr int mostNames = 10;
-    const auto input = OIIO::ImageInput::open(file.string());  // of its own: a GIF forgets where it was
+    const auto input = OIIO::ImageInput::open(file.string());  // opened separately: a GIF loses its position
     if (!input || std::string_view(input->format_name()) == "psd" || !input->seek_subimage(1, 0)) return "";
     std::string names;
     for (int part = 0; part < mostNames && input->seek_subimage(part, 0); ++part)
@@ -111,13 +111,13 @@ std::string severalParts(const std::filesystem::path& file) {
     return "it has several parts, expected one" + names;
 }
 
-/// True for a `.psd` with layers after its whole.
+/// True for a `.psd` with layers after the merged picture.
 bool hasMore(const std::filesystem::path& file) {
     const auto input = OIIO::ImageInput::open(file.string());
     return input && input->seek_subimage(1, 0);
 }
 
-/// Empty unless all channels belong to layers, and to more than one, or are no colours: then a reason with their names.
+/// Empty unless the channels are not colours or belong to several layers; then a reason with their names.
 std::string severalLayers(const OIIO::ImageSpec& spec) {
     if (std::ranges::find(spec.channelnames, "RY") != spec.channelnames.end())
         return "its channels are luminance and chroma (Y, RY, BY), expected red, green and blue";
@@ -153,7 +153,7 @@ class OpenImageIo final : public PictureLibrary {
         const OIIO::ImageSpec& spec = input->spec();
         const int channels = spec.nchannels;
         if (channels < 1 || spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.deep)
-            return "it is not a flat picture";
+            return "it is not a 2D picture";
         const Window window = shownBy(spec, input->format_name());
         for (const auto& [width, height] : {std::pair(spec.width, spec.height), std::pair(window.width, window.height)})
             if (std::string reason = tooLarge(width, height, channels); !reason.empty()) return reason;
@@ -199,7 +199,7 @@ class OpenImageIo final : public PictureLibrary {
 
     std::string resize(std::span<const float> from, int fromWidth, int fromHeight, std::span<float> to, int width,
                        int height) const override {
-        std::vector<float> source(from.begin(), from.end());  // OpenImageIO wraps memory that it may write to
+        std::vector<float> source(from.begin(), from.end());  // OpenImageIO only wraps mutable memory
         const OIIO::ImageBuf read(OIIO::ImageSpec(fromWidth, fromHeight, 4, OIIO::TypeDesc::FLOAT), source.data());
         OIIO::ImageBuf written(OIIO::ImageSpec(width, height, 4, OIIO::TypeDesc::FLOAT), to.data());
         const OIIO::ROI all(0, width, 0, height, 0, 1, 0, 4);

@@ -1,4 +1,4 @@
-// How dustbench_vdb_reader answers: header after header on its standard output, then it ends.
+// How dustbench_vdb_reader answers: header by header on its standard output; then it ends.
 #pragma once
 
 #include <unistd.h>
@@ -12,7 +12,7 @@
 
 namespace dustbench::volumes {
 
-/// A reason to refuse the file, as one clause.
+/// A reason for refusing the file, as one clause.
 struct Refusal {
     std::string reason;
 };
@@ -26,7 +26,7 @@ void put(const Header& header) {
     put(&header, sizeof header);
 }
 
-/// The first header, with what is ignored.
+/// Writes the first header with the ignored parts.
 inline void putMessage(VdbMessage message, const std::vector<std::string>& ignored) {
     std::string lines;
     for (const std::string& part : ignored)
@@ -36,7 +36,7 @@ inline void putMessage(VdbMessage message, const std::vector<std::string>& ignor
     put(lines.data(), lines.size());
 }
 
-/// Ends the process: what the file left in memory is not taken apart.
+/// Ends the process without freeing the file's data.
 [[noreturn]] inline void finish() {
     _exit(std::fflush(stdout) == 0 ? 0 : 1);
 }

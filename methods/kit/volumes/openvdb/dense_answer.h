@@ -1,4 +1,4 @@
-// Writes where an OpenVDB grid lies, and its values within a box, cell by cell.
+// Writes the position of an OpenVDB grid and its values in a box, cell by cell.
 #pragma once
 
 #include <openvdb/openvdb.h>
@@ -13,7 +13,7 @@
 
 namespace dustbench::volumes {
 
-/// Its corners are any 32-bit numbers, whose differences overflow.
+/// The corners may be any 32-bit numbers, whose differences can overflow.
 [[nodiscard]] inline double countOf(const openvdb::CoordBBox& box) {
     double cells = 1;
     for (int axis = 0; axis < 3; ++axis)
@@ -21,14 +21,14 @@ namespace dustbench::volumes {
     return cells;
 }
 
-/// The metadata `time_s`, a float or a double.
+/// The metadata `time_s`, which may be a float or a double.
 [[nodiscard]] inline std::optional<double> timeOf(const openvdb::GridBase& grid) {
     if (const auto time = grid.getMetadata<openvdb::DoubleMetadata>("time_s")) return time->value();
     if (const auto time = grid.getMetadata<openvdb::FloatMetadata>("time_s")) return static_cast<double>(time->value());
     return std::nullopt;
 }
 
-/// Where the cells of the box lie, and when.
+/// Position and time of the cells in the box.
 [[nodiscard]] inline VdbMessage messageOf(const openvdb::GridBase& grid, const openvdb::CoordBBox& box) {
     VdbMessage message;
     message.spacing = grid.voxelSize()[0];
@@ -44,7 +44,7 @@ namespace dustbench::volumes {
     return message;
 }
 
-/// A slab of eight layers at a time.
+/// Writes a slab of eight layers at a time.
 template <typename Value, typename Grid>
 void putDense(const Grid& grid, const openvdb::CoordBBox& box) {
     for (int z = box.min().z(); z <= box.max().z(); z += 8) {
@@ -56,15 +56,15 @@ void putDense(const Grid& grid, const openvdb::CoordBBox& box) {
     }
 }
 
-/// What is switched off counts as the background, whatever value was left there.
+/// Inactive voxels count as background, whatever their values.
 template <typename Grid>
 void forgetInactive(Grid& grid) {
     const auto background = grid.background();
     for (auto value = grid.beginValueOff(); value; ++value) value.setValue(background);
 }
 
-/// Vectors at the middles of cells. Those of class `staggered` lie on the lower faces: half of both faces, or the
-/// lower one alone if there is no upper one.
+/// Writes vectors at the centres of cells. Those of class `staggered` are stored on the lower faces and averaged: half
+/// of both faces, or only the lower one if there is no upper one.
 inline void putVectors(const openvdb::Vec3SGrid& grid, const openvdb::CoordBBox& box) {
     if (grid.getGridClass() != openvdb::GRID_STAGGERED) return putDense<openvdb::Vec3s>(grid, box);
     const auto faces = grid.getConstAccessor();

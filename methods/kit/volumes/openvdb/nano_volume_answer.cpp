@@ -1,5 +1,5 @@
-// Apart from the other files, because NanoVDB's headers are slow as well.
-// What asks NanoVDB to read compressed files. NOLINTBEGIN(cppcoreguidelines-macro-usage)
+// Separate from the other files, because NanoVDB's headers are slow to compile as well.
+// These macros make NanoVDB read compressed files. NOLINTBEGIN(cppcoreguidelines-macro-usage)
 #define NANOVDB_USE_ZIP
 #define NANOVDB_USE_BLOSC
 // NOLINTEND(cppcoreguidelines-macro-usage)
@@ -27,7 +27,7 @@ struct NanoChoice {
     Handle handle;
 };
 
-/// Numbers in a field of this type; 0: it is none that is read.
+/// Numbers per value of this type; 0: a type that is not read.
 int componentsOf(nanovdb::GridType type) {
     switch (type) {
         case nanovdb::GridType::Float:
@@ -44,7 +44,7 @@ int componentsOf(nanovdb::GridType type) {
     }
 }
 
-/// Calls take(grid) with the grid as what it is.
+/// Calls take(grid) with the grid cast to its type.
 template <typename Take>
 void visit(const Handle& handle, const Take& take) {
     const auto as = [&]<typename Build>(Build) {
@@ -77,27 +77,27 @@ struct Lattice {
     nanovdb::Vec3d origin{0};
     nanovdb::CoordBBox box;
 
-    /// But for rounding.
+    /// Ignores rounding errors.
     bool operator==(const Lattice& other) const {
         return std::abs(other.spacing / spacing - 1) <= 1e-5 && (other.origin - origin).length() <= 1e-5 * spacing;
     }
 };
 
-/// Cells are cubes along the axes of the world.
+/// Throws Refusal unless the cells are cubes aligned with the world's axes.
 template <typename Grid>
 Lattice latticeOf(const Grid& grid) {
     Lattice lattice{grid.voxelSize()[0], grid.indexToWorld(nanovdb::Vec3d(0.0)), grid.indexBBox()};
-    if (!(lattice.spacing > 0) || !std::isfinite(lattice.spacing)) throw Refusal{"its cells are no cubes"};
+    if (!(lattice.spacing > 0) || !std::isfinite(lattice.spacing)) throw Refusal{"its cells are not cubes"};
     for (int axis = 0; axis < 3; ++axis) {
         nanovdb::Vec3d unit(0.0);
         unit[axis] = 1;
         const nanovdb::Vec3d off = grid.indexToWorld(unit) - lattice.origin - lattice.spacing * unit;
-        if (!(off.length() <= 1e-5 * lattice.spacing)) throw Refusal{"its cells are no cubes along the axes"};
+        if (!(off.length() <= 1e-5 * lattice.spacing)) throw Refusal{"its cells are not cubes along the axes"};
     }
     return lattice;
 }
 
-/// False for another lattice, a turned one too.
+/// False for another lattice, including a rotated one.
 bool liesOn(const Lattice& lattice, const Handle& handle) {
     bool isThere = false;
     try {
@@ -115,13 +115,13 @@ double countOf(const nanovdb::CoordBBox& box) {
     return cells;
 }
 
-/// A level set as OpenVDB's sdfToFogVolume makes fog of it: 0 at the surface, 1 from the half width of its band on.
+/// A level set as fog, as OpenVDB's sdfToFogVolume makes it: 0 at the surface, 1 from the half width of its band on.
 float fogOf(float distance, float halfWidth) {
     return distance < 0 ? std::min(-distance / halfWidth, 1.0f) : 0.0f;
 }
 
-/// Vectors on the lower faces of cells, at their middles: half of both faces, or the lower one alone if there is no
-/// upper one.
+/// Averages vectors on the lower faces of cells to the centres: half of both faces, or only the lower one if there is
+/// no upper one.
 template <typename Values>
 nanovdb::Vec3f middleOf(const Values& faces, const nanovdb::Coord& cell) {
     nanovdb::Vec3f middle = faces.getValue(cell);
@@ -135,8 +135,8 @@ nanovdb::Vec3f middleOf(const Values& faces, const nanovdb::Coord& cell) {
     return middle;
 }
 
-/// What is switched off counts as the background, of a density as 0: NanoVDB's own spheres of fog have another
-/// background. Where there is no leaf, eight cells along x have one value, unless they take part of their neighbours'.
+/// Inactive voxels count as background, for a density as 0, because NanoVDB's own fog spheres have a different
+/// background. Without a leaf, eight cells along x have one value, unless values include part of their neighbours'.
 template <typename Grid>
 void putValues(const Grid& grid, const nanovdb::CoordBBox& box, bool isDensity) {
     using Value = typename Grid::ValueType;
@@ -171,7 +171,7 @@ void putValues(const Grid& grid, const nanovdb::CoordBBox& box, bool isDensity) 
             }
 }
 
-/// An optional field is one of those on the density's lattice: another lattice is as good as another file.
+/// An optional field must be on the density's lattice; on another one it counts as missing.
 std::vector<NanoChoice> choose(const std::string& file, const std::array<WantedField, 3>& wanted,
                                std::vector<std::string>& ignored) {
     std::vector<PresentField> present;
@@ -212,7 +212,7 @@ void answerNanoVolume(const std::string& file, const VolumeFields& fields) {
         if constexpr (!std::is_same_v<typename std::decay_t<decltype(grid)>::ValueType, nanovdb::Vec3f>)
             if (const auto background = static_cast<double>(grid.tree().background());
                 background != 0 && !grid.isLevelSet() && !grid.isFogVolume())
-                throw Refusal{"its density goes on beyond its grid: the background is " + std::to_string(background) +
+                throw Refusal{"its density continues beyond its grid: the background is " + std::to_string(background) +
                               ", expected 0"};
     });
     const double cells = countOf(lattice.box);
@@ -220,7 +220,8 @@ void answerNanoVolume(const std::string& file, const VolumeFields& fields) {
     if (cells > static_cast<double>(maximumCells(fields))) throw Refusal{tooManyCells(fields)};
     for (const NanoChoice& each : chosen)
         if (!liesOn(lattice, each.handle))
-            throw Refusal{"its field of " + std::string(each.wanted->what) + " lies on another grid than its density"};
+            throw Refusal{"its field for the " + std::string(each.wanted->what) +
+                          " is on a different grid from its density"};
     VdbMessage message;
     message.spacing = lattice.spacing;
     message.columns = static_cast<std::int32_t>(chosen.size());

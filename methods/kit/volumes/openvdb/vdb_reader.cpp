@@ -46,7 +46,7 @@ openvdb::Vec3SGrid::Ptr readGrid(const std::string& file, const std::string& fie
 openvdb::CoordBBox boxOfVectors(const openvdb::Vec3SGrid& grid) {
     const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
     if (!grid.transform().isLinear() || !grid.hasUniformVoxels() || !(grid.voxelSize()[0] > 0))
-        throw Refusal{"its cells are no cubes"};
+        throw Refusal{"its cells are not cubes"};
     if (box.empty()) throw Refusal{"its vectors are zero everywhere"};
     if (countOf(box) > static_cast<double>(files::limits::sparseCells))
         throw Refusal{"the box of its vectors has more than 89 million cells"};
@@ -74,7 +74,7 @@ void append(const openvdb::points::AttributeArray& array, const PointDataTree::L
             column.values.push_back(static_cast<double>(handle.get(*index)));
 }
 
-/// False for a type that is no number.
+/// False for a type that is not a number.
 bool appendAttribute(const openvdb::points::AttributeArray& array, const PointDataTree::LeafNodeType& leaf,
                      Column& column) {
     const std::string type = array.valueType();
@@ -122,7 +122,7 @@ PointDataGrid::Ptr readPointGrid(const std::string& file, double& timeSeconds, b
     return points;
 }
 
-/// Attributes that are no number, or several for a point, are named in `ignored`.
+/// Attributes that are not numbers, or that have several values per point, are named in `ignored`.
 std::vector<Column> columnsOf(const PointDataGrid& grid, std::vector<std::string>& ignored) {
     std::vector<Column> columns{{"Points", 3, {}}};
     const auto first = grid.tree().cbeginLeaf();
@@ -183,7 +183,7 @@ std::vector<Column> columnsOf(const PointDataGrid& grid, std::vector<std::string
     message.timeSeconds = timeSeconds;
     for (const Column& column : columns)
         if (column.values.size() != message.points * static_cast<std::size_t>(column.components))
-            throw Refusal{"an attribute has not a value for each point"};
+            throw Refusal{"an attribute does not have one value per point"};
     putMessage(message, ignored);
     for (const Column& column : columns) {
         VdbColumn header;
@@ -218,7 +218,7 @@ void limitVdbReader(const std::string& file) {
     const rlimit noCore{0, 0}, seconds{allowed, allowed};
     setrlimit(RLIMIT_CORE, &noCore);
     setrlimit(RLIMIT_CPU, &seconds);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose shadow takes terabytes
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // their shadow memory takes terabytes
     const rlimit memory{vdbMemoryBytes(fileBytes), vdbMemoryBytes(fileBytes)};
     setrlimit(RLIMIT_DATA, &memory);
 #endif
@@ -226,7 +226,7 @@ void limitVdbReader(const std::string& file) {
 
 void runVdbReader(const std::string& first, const std::string& second) {
     const std::string file = vdbFile(first.c_str(), second.c_str());
-    // So that memory does not depend on the number of cores. (ThreadSanitizer cannot see into oneTBB either.)
+    // Keeps memory independent of the number of cores. (ThreadSanitizer cannot see into oneTBB either.)
     const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
     try {
         openvdb::initialize();
@@ -238,7 +238,7 @@ void runVdbReader(const std::string& first, const std::string& second) {
     } catch (const Refusal& refusal) {
         writeReason(refusal.reason);
     } catch (const std::bad_alloc&) {
-        writeReason("reading it takes more memory than a file of its size may: 64 MiB and 64 times the file");
+        writeReason("reading it takes too much memory, allowed: 64 MiB and 64 times the file's size");
     } catch (const std::exception&) {
         writeReason(notWholeOf(file));
     }

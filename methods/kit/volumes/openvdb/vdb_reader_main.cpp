@@ -1,5 +1,5 @@
 // The program dustbench_vdb_reader: reads a field of vectors, or points, from a `.vdb` and writes it to its standard
-// output (vdb_message.h). It is a process of its own, so that a damaged file ends no other.
+// output (vdb_message.h). It is a separate process, so that a damaged file cannot crash another one.
 //
 //     dustbench_vdb_reader FILE FIELD
 //     dustbench_vdb_reader --points FILE

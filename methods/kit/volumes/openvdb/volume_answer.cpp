@@ -22,14 +22,14 @@ struct Chosen {
 };
 
 openvdb::GridPtrVec readGrids(const std::string& file) {
-    // As in vdb_reader.cpp: the stream notices the end of a file.
+    // As in vdb_reader.cpp: the stream detects the end of a file.
     std::ifstream stream(file, std::ios::binary);
     stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
     openvdb::io::Stream stored(stream, /*delayLoad=*/false);
     return *stored.getGrids();
 }
 
-/// 0: it is none that is read.
+/// 0: a type that is not read.
 int numbersInCellOf(const openvdb::GridBase& grid) {
     if (grid.isType<Vec3SGrid>()) return 3;
     return grid.isType<FloatGrid>() || grid.isType<DoubleGrid>() ? 1 : 0;
@@ -45,11 +45,11 @@ FloatGrid::Ptr inFloats(const openvdb::GridBase::Ptr& grid) {
     return floats;
 }
 
-/// Cells are cubes along the axes of the world.
+/// Throws Refusal unless the cells are cubes aligned with the world's axes.
 void requireUpright(const openvdb::GridBase& grid) {
     const double spacing = grid.voxelSize()[0];
     if (!grid.transform().isLinear() || !grid.hasUniformVoxels() || !(spacing > 0) || !std::isfinite(spacing))
-        throw Refusal{"its cells are no cubes"};
+        throw Refusal{"its cells are not cubes"};
     const openvdb::Vec3d origin = grid.indexToWorld(openvdb::Vec3d(0));
     for (int axis = 0; axis < 3; ++axis) {
         openvdb::Vec3d unit(0);
@@ -91,7 +91,7 @@ void answerVolume(const std::string& file, const VolumeFields& fields) {
     std::vector<std::size_t> places;
     for (const WantedField& each : wanted) {
         std::vector<PresentField> present = all;
-        if (!chosen.empty() && !each.isRequired)  // another lattice is as good as another file
+        if (!chosen.empty() && !each.isRequired)  // a field on another lattice counts as missing
             for (std::size_t i = 0; i < grids.size(); ++i)
                 if (grids[i]->transform() != chosen[0].grid->transform()) present[i].components = 0;
         const int at = chosenField<Refusal>(each, present);
@@ -105,12 +105,12 @@ void answerVolume(const std::string& file, const VolumeFields& fields) {
     const bool isLevelSet = density->getGridClass() == openvdb::GRID_LEVEL_SET;
     if (isLevelSet) openvdb::tools::sdfToFogVolume(*density);
     if (density->background() != 0.0f && !isLevelSet)
-        throw Refusal{"its density goes on beyond its grid: the background is " +
+        throw Refusal{"its density continues beyond its grid: the background is " +
                       std::to_string(density->background()) + ", expected 0"};
     chosen[0].grid = density;
     for (const Chosen& each : chosen)
         if (each.grid->transform() != density->transform())
-            throw Refusal{"its field '" + each.grid->getName() + "' lies on another grid than its density"};
+            throw Refusal{"its field '" + each.grid->getName() + "' is on a different grid from its density"};
     const openvdb::CoordBBox box = boxOf(*density, fields);
     VdbMessage message = messageOf(*density, box);
     message.columns = static_cast<std::int32_t>(chosen.size());

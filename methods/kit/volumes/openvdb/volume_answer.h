@@ -1,4 +1,4 @@
-// Answers with the fields of a volume: the density's box, and what else is there in its cells.
+// Answers with the fields of a volume: the density's box, and the other fields in the same cells.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace dustbench::volumes {
 
-/// What announces a field's values.
+/// The header that announces a field's values.
 [[nodiscard]] inline VdbColumn columnOf(const WantedField& field) {
     VdbColumn column;
     field.what.copy(column.name, sizeof column.name - 1);
@@ -16,9 +16,9 @@ namespace dustbench::volumes {
     return column;
 }
 
-/// Of a `.vdb`. Throws Refusal, or what OpenVDB throws.
+/// For a `.vdb`. Throws Refusal, or what OpenVDB throws.
 [[noreturn]] void answerVolume(const std::string& file, const VolumeFields& fields);
-/// Of a `.nvdb`, likewise.
+/// For a `.nvdb`, likewise.
 [[noreturn]] void answerNanoVolume(const std::string& file, const VolumeFields& fields);
 
 }  // namespace dustbench::volumes

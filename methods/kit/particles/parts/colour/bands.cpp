@@ -1,5 +1,5 @@
-// One of two colours for each particle, as of ground whose soil changes along the way: particles born in a row share
-// it.
+// One of two colours for each particle, like ground whose soil changes along the way: consecutive births share a
+// colour.
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/particles/colour_part.h"
 #include "methods/kit/particles/opacity_curve.h"
@@ -50,11 +50,11 @@ void BandedColour::update(Chunk& chunk, const Step&) const {
 
 PartInfo describe() {
     PartInfo info;
-    info.help = "one of two colours; particles born in a row share it";
+    info.help = "one of two colours, shared by consecutive births";
     declareVector(info.parameters, "first", colourAxes, {1, 1, 1}, 0, 100, "", "linear RGB");
     declareVector(info.parameters, "second", colourAxes, {0, 0, 0}, 0, 100, "", "linear RGB");
-    info.parameters.integer("births", 100, 1, 1'000'000'000, "particles", "born in a row that share a colour")
-        .real("share", 0.5, 0, 1, "", "share of the rows that have the second colour");
+    info.parameters.integer("births", 100, 1, 1'000'000'000, "particles", "consecutive births that share a colour")
+        .real("share", 0.5, 0, 1, "", "share of the bands with the second colour");
     OpacityCurve::declare(info.parameters);
     info.create = [](const ParameterValues& values) { return std::make_unique<BandedColour>(values); };
     return info;

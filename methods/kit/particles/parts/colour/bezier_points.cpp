@@ -1,5 +1,5 @@
-// Colour and opacity along Bézier curves of 2 to 8 control points, from birth to death: each channel has a curve of its
-// own through the components of the points.
+// Colour and opacity along Bézier curves of 2 to 8 control points, from birth to death: each channel has a separate
+// curve through the components of the points.
 #include <array>
 #include <span>
 #include <string>
@@ -44,7 +44,7 @@ PointsColour::PointsColour(const ParameterValues& values) : ColourPart(values) {
 
 void writeChannel(std::span<const float> weights, std::size_t count, const float* __restrict share,
                   float* __restrict channel) {
-    // Rounding may take a curve that ends at 0 slightly below it.
+    // Rounding may make a curve that ends at 0 slightly negative.
     for (std::size_t i = 0; i < count; ++i) {
         const float value = maths::bernsteinSum(weights, share[i]);
         channel[i] = value > 0.0f ? value : 0.0f;
@@ -64,13 +64,13 @@ PartInfo describe() {
     PartInfo info;
     info.help = "along curves of 2 to 8 control points, one for each channel";
     info.source = "Thesis, 4.4.3; Farin2002, ch. 5";
-    info.parameters.integer("points", 6, 2, maximumPoints, "", "number of control points that count");
+    info.parameters.integer("points", 6, 2, maximumPoints, "", "number of control points used");
     for (int i = 0; i < maximumPoints; ++i)
         for (const std::string_view channel : channelNames) {
             const bool isOpacity = channel == "opacity";
             info.parameters.real(nameOf(i, channel), isOpacity ? 0.25 : 1, 0, isOpacity ? maximumOpacity : 100, "",
                                  i == 0 ? "linear RGB and peak opacity at birth"
-                                        : "linear RGB and peak opacity; the last point that counts is that at death");
+                                        : "linear RGB and peak opacity; the last point used applies at death");
         }
     info.create = [](const ParameterValues& values) { return std::make_unique<PointsColour>(values); };
     return info;

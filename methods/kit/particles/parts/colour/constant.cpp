@@ -55,7 +55,7 @@ PartInfo describe() {
     info.help = "one constant colour for all particles";
     info.source = "Thesis, 4.4.1";
     info.parameters.choice("from", From::own, origins, "the scene's lit dust, or `colour`");
-    declareVector(info.parameters, "colour", colourAxes, {1, 1, 1}, 0, 100, "", "linear RGB, where from = own");
+    declareVector(info.parameters, "colour", colourAxes, {1, 1, 1}, 0, 100, "", "linear RGB, if from = own");
     OpacityCurve::declare(info.parameters);
     info.create = [](const ParameterValues& values) { return std::make_unique<ConstantColour>(values); };
     return info;

@@ -19,7 +19,7 @@ class Bursts final : public EmissionPart {
 
     [[nodiscard]] Births births(const Step& step) override;
     [[nodiscard]] bool neverEmits() const override { return count_ <= 0; }
-    /// Takes over the fraction that is due, and the time within the interval if the interval stays the same.
+    /// Copies the fraction that is due, and the time within the interval if the interval is unchanged.
     void takeOver(const Part& before) override;
     [[nodiscard]] double meanRatePerSecond() const override { return count_ / intervalSeconds_; }
 
@@ -83,12 +83,12 @@ Births Bursts::births(const Step& step) {
 
 PartInfo describe() {
     PartInfo info;
-    info.help = "bursts, with nothing between them";
+    info.help = "bursts, with pauses between them";
     info.source = "Thesis, 4.6.2";
     info.parameters.real("count", 700, 0, 1e8, "", "births per burst, from all emitters together")
-        .real("duration_seconds", 0.05, 0, 1e4, "s", "of a burst; 0: all at once")
+        .real("duration_seconds", 0.05, 0, 1e4, "s", "duration of a burst; 0: all at once")
         .real("interval_seconds", 2, 1e-3, 1e6, "s",
-              "from the begin of a burst to that of the next; births of a step that holds several bursts are evenly "
+              "from the start of a burst to the next start; in a step with several bursts, births are evenly "
               "spaced");
     info.create = [](const ParameterValues& values) { return std::make_unique<Bursts>(values); };
     return info;

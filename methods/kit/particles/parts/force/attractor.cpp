@@ -51,8 +51,8 @@ PartInfo describe() {
     info.help = "a point that attracts particles; 0 at the point itself, largest near the softening length";
     info.source = "Thesis, 5.2.2; Plummer1911";
     info.parameters.choice("law", AttractionLaw::inverseSquare, attractionLaws, attractionLawHelp);
-    declareVector(info.parameters, "place", spaceAxes, {0, 0, 0}, -1e6, 1e6, "m", "of the point, in the world");
-    info.parameters.real("strength", 10, -1e6, 1e6, "", "k: the acceleration in m/s² where f is 1; below 0 it repels")
+    declareVector(info.parameters, "place", spaceAxes, {0, 0, 0}, -1e6, 1e6, "m", "position of the point in the world");
+    info.parameters.real("strength", 10, -1e6, 1e6, "", "k: the acceleration in m/s² where f is 1; negative: repulsion")
         .real("softening_metres", 0.05, 1e-3, 1e4, "m",
               "ε: limits the attraction at small distances, since f is infinite at d = 0");
     info.create = [](const ParameterValues& values) { return std::make_unique<Attractor>(values); };

@@ -2,9 +2,10 @@
 //
 // fixed: the path of each step is tested as a segment, at any speed; the particle bounces at the point of contact
 // (contacts.h). With restitution 1 and no friction it keeps its energy and retraces its path.
-// paper: positions are tested, the current one x and the predicted one x + v·dt. If the surface lies between them, v is
-// mirrored and scaled by the restitution, at the current position, as if the surface stood still. On a disc: d(x)·d(x +
-// v·dt) < error, then |x − centre| < radius; so a fast particle misses it, and one that leaves it slowly is caught.
+// paper: tests positions, the current one x and the predicted one x + v·dt. If the surface lies between them, v is
+// mirrored and scaled by the restitution, at the current position, as if the surface did not move. On a disc:
+// d(x)·d(x + v·dt) < error, then |x − centre| < radius. So a fast particle misses it, and one that leaves it slowly is
+// caught.
 #include <cmath>
 
 #include "methods/kit/particles/force_part.h"
@@ -135,7 +136,7 @@ PartInfo describe() {
     info.source = "Thesis, 5.3 and 6.1";
     info.parameters.choice("mode", maths::SamplingMode::fixed, samplingModes,
                            "paper: tests the current and the predicted position, mirrors at the current one; fixed: "
-                           "tests the way between them, bounces where it meets the surface");
+                           "tests the path between them, bounces where it hits the surface");
     declareSurface(info.parameters);
     info.parameters
         .real("restitution", 0.6, 0, 1, "",

@@ -1,6 +1,6 @@
 // A constant force on all particles: wind, buoyancy, gravity in any direction.
 //
-// paper: a = m·F, as printed. fixed: a = F/m (Newton). At the mass of 1 kg that the thesis takes they are the same.
+// paper: a = m·F, as printed. fixed: a = F/m (Newton). At the thesis's mass of 1 kg they are equal.
 #include "methods/kit/particles/force_part.h"
 #include "methods/kit/particles/sampling_modes.h"
 #include "methods/kit/particles/vector_parameter.h"
@@ -42,8 +42,8 @@ PartInfo describe() {
     info.source = "Thesis, 5.1 and 5.2.1";
     info.parameters.choice("mode", maths::SamplingMode::fixed, samplingModes,
                            "paper: a = m·F, as printed; fixed: a = F/m");
-    declareVector(info.parameters, "force", spaceAxes, {0, -9.8, 0}, -1e6, 1e6, "N", "on each particle");
-    info.parameters.real("mass_kilograms", 1, 1e-6, 1e6, "kg", "of each particle");
+    declareVector(info.parameters, "force", spaceAxes, {0, -9.8, 0}, -1e6, 1e6, "N", "force on each particle");
+    info.parameters.real("mass_kilograms", 1, 1e-6, 1e6, "kg", "mass of each particle");
     info.create = [](const ParameterValues& values) { return std::make_unique<ConstantForce>(values); };
     return info;
 }

@@ -1,4 +1,4 @@
-// A constant downward acceleration: gravity less buoyancy.
+// A constant downward acceleration: gravity minus buoyancy.
 #include "methods/kit/particles/force_part.h"
 
 namespace dustbench::particles::parts::force::gravity {
@@ -31,7 +31,7 @@ PartInfo describe() {
     PartInfo info;
     info.help = "a constant acceleration downwards";
     info.source = "Thesis, 5.2.1";
-    info.parameters.real("acceleration", 9.8, -1000, 1000, "m/s²", "downwards; less than 9.8 where the air carries");
+    info.parameters.real("acceleration", 9.8, -1000, 1000, "m/s²", "downwards; below 9.8 with buoyancy");
     info.create = [](const ParameterValues& values) { return std::make_unique<Gravity>(values); };
     return info;
 }

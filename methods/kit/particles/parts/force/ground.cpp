@@ -1,7 +1,7 @@
 // The ground supports particles and slows those that touch it.
 //
-// A centre stays at least `lift`·radius above the ground below it (a puff is soft: it may sink in). A particle that
-// would go lower is raised to that height and loses its velocity into the ground, v ← v − (v·n)n if v·n < 0; the rest
+// A centre stays at least `lift`·radius above the ground below it (a puff is soft and may sink in). A particle that
+// would move lower is raised to that height and loses its velocity into the ground, v ← v − (v·n)n if v·n < 0; the rest
 // decays at the rate `friction` (implicitly: v ← v/(1 + k·dt)). Departs from its source, the contact forces: position
 // and velocity are corrected after the move.
 #include "methods/kit/particles/force_part.h"
@@ -14,7 +14,7 @@ struct Surface {
     alignas(64) float height[chunkSize], slopeX[chunkSize], slopeZ[chunkSize];
 };
 
-/// The height field in the form that the loop needs.
+/// The height field, prepared for the loop.
 struct Field {
     const float* heights;
     int columns;
@@ -48,7 +48,7 @@ void surfaceBelow(std::size_t count, const float* __restrict x, const float* __r
         const float near = h00 + u * (h10 - h00), far = h01 + u * (h11 - h01);
         const float alongX = (h10 - h00) * (1.0f - v) + (h11 - h01) * v;
         height[i] = near + v * (far - near);
-        // Outside, the surface extends level from the edge.
+        // Beyond the edge, the surface continues level.
         slopeX[i] = alongX * (heldX == gridX ? perSpacing : 0.0f);
         slopeZ[i] = (far - near) * (heldZ == gridZ ? perSpacing : 0.0f);
     }
@@ -127,7 +127,7 @@ PartInfo describe() {
     PartInfo info;
     info.help = "the ground supports particles and slows them";
     info.source = "Thesis, 5.3";
-    info.parameters.real("lift", 0.3, 0, 10, "", "least height of a centre above the ground, in radii")
+    info.parameters.real("lift", 0.3, 0, 10, "", "minimum height of a centre above the ground, in radii")
         .real("friction_per_second", 2, 0, 1e6, "1/s", "rate at which particles on the ground come to rest");
     info.create = [](const ParameterValues& values) { return std::make_unique<Ground>(values); };
     return info;

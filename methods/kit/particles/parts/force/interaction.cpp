@@ -1,7 +1,7 @@
-// Particles attract or repel each other: all pairs, or a tree of them.
+// Particles attract or repel each other: all pairs, or with a tree.
 //
 // pairs: every particle attracts every other one, O(N²). tree: far cells attract as one body at their centre of mass,
-// or not at all (the thesis's two ways). The attraction uses the positions at the beginning of the step; newborns take
+// or not at all (the thesis's two ways). The attraction uses the positions at the start of the step; newborns take
 // part from the next step on.
 #include <algorithm>
 

@@ -65,10 +65,10 @@ PartInfo describe() {
     PartInfo info;
     info.help = "the scene's wind, with gusts";
     info.source = "Kraichnan1970, Eq. 7";
-    info.parameters.real("factor", 1, -100, 100, "", "of the scene's wind")
+    info.parameters.real("factor", 1, -100, 100, "", "factor on the scene's wind")
         .real("gust_speed", 0, 0, 100, "m/s", "root mean square of the gusts; 0: none")
         .real("gust_metres", 4, 0.01, 1e4, "m", "longest wavelength of the gusts")
-        .real("gust_seconds", 3, 0.01, 1e4, "s", "its period");
+        .real("gust_seconds", 3, 0.01, 1e4, "s", "period of that wavelength");
     info.create = [](const ParameterValues& values) { return std::make_unique<Wind>(values); };
     return info;
 }

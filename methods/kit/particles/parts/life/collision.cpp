@@ -1,4 +1,4 @@
-// Death at the contact with a surface.
+// Death on contact with a surface.
 //
 // fixed: dies at the end of the path that hits the surface (contacts.h). paper: dies if the surface lies between the
 // current position and the predicted one, x + v·dt, before the forces of the step act.
@@ -53,11 +53,10 @@ void Collision::judge(Chunk& chunk, const Step& step) const {
 
 PartInfo describe() {
     PartInfo info;
-    info.help = "death at a half-space, a sphere, a disc, a mesh or what the scene holds, besides death of age";
+    info.help = "death on contact with a half-space, sphere, disc, mesh or the scene, in addition to death by age";
     info.source = "Thesis, 4.7.3 and 6.1";
-    info.parameters.choice(
-        "mode", maths::SamplingMode::fixed, samplingModes,
-        "paper: tests the way predicted before the forces act; fixed: the way that the particle goes");
+    info.parameters.choice("mode", maths::SamplingMode::fixed, samplingModes,
+                           "paper: tests the path predicted before the forces act; fixed: the actual path");
     declareSurface(info.parameters);
     info.create = [](const ParameterValues& values) { return std::make_unique<Collision>(values); };
     return info;

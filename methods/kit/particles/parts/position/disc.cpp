@@ -18,7 +18,7 @@ class DiscSource final : public PlacedSource {
     maths::Tangents axes_;  ///< of the disc, in the emitter's frame
 };
 
-/// A disc that lies flat has the emitter's own axes.
+/// A horizontal disc has the emitter's own axes.
 maths::Tangents axesOf(const glm::vec3& normal) {
     return normal == glm::vec3(0, 1, 0) ? maths::Tangents{{1, 0, 0}, {0, 0, 1}} : maths::tangentsOf(normal);
 }
@@ -48,7 +48,7 @@ PartInfo describe() {
     PlacedSource::declare(info.parameters);
     info.parameters.real("radius_metres", 0.2, 0, 1e4, "m", "radius of the disc");
     declareVector(info.parameters, "normal", spaceAxes, {0, 1, 0}, -1, 1, "",
-                  "of the disc's plane: forward, up, right of its emitter");
+                  "normal of the disc: forward, up, right of its emitter");
     info.create = [](const ParameterValues& values) { return std::make_unique<DiscSource>(values); };
     return info;
 }

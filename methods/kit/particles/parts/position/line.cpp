@@ -41,10 +41,10 @@ void LineSource::place(Newborns& newborns, const Step& step) const {
 
 PartInfo describe() {
     PartInfo info;
-    info.help = "a line from its place, or about it";
+    info.help = "a line that starts at its place or is centred on it";
     info.source = "Thesis, 4.2.2";
     PlacedSource::declare(info.parameters);
-    declareVector(info.parameters, "direction", spaceAxes, {0, 0, 1}, -1, 1, "", "of the line: forward, up, right");
+    declareVector(info.parameters, "direction", spaceAxes, {0, 0, 1}, -1, 1, "", "direction: forward, up, right");
     info.parameters.real("length_metres", 1, 0, 1e4, "m", "length of the line")
         .choice("base", Base::end, bases, "whether the place is the line's end or its middle");
     info.create = [](const ParameterValues& values) { return std::make_unique<LineSource>(values); };

@@ -1,7 +1,7 @@
 // Births distributed uniformly over the surface of a mesh: a triangle by its area, then a point on it.
 //
 // The mesh's origin is the source's centre; its axes x, y, z are the emitter's forward, up, right. The thesis emits
-// from lines, balls and discs; this is the same for any surface.
+// from lines, balls and discs; this extends the method to any surface.
 #include <algorithm>
 #include <array>
 #include <vector>

@@ -58,7 +58,7 @@ PartInfo describe() {
     info.parameters
         .choice("mode", Mode::exact, modes,
                 "rejection: evenly, the paper's way; exact: evenly, by a formula; centre: the paper's `normal` "
-                "distribution, whose density falls as 1/d² and is higher about the poles")
+                "distribution, whose density falls as 1/d² and is higher near the poles")
         .real("radius_metres", 0.5, 0, 1e4, "m", "radius of the ball");
     info.create = [](const ParameterValues& values) { return std::make_unique<SphereSource>(values); };
     return info;

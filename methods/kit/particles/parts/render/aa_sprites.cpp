@@ -11,10 +11,10 @@ struct Traits {
     static void declare(ParameterSet& set) {
         declarePicture(set);
         set.choice("by", AntiAliasing::copies, antiAliasings,
-                   "copies of each sprite between its old place and its new one, or the mean of whole pictures")
-            .integer("copies", 4, 1, 64, "", "of each sprite, or pictures")
-            .real("seconds", 0, 0, 10, "s", "of the path that they show; 0: the last step")
-            .boolean("fade", true, "newer ones count for more");
+                   "copies of each sprite between its old and new position, or the mean of whole pictures")
+            .integer("copies", 4, 1, 64, "", "number of copies or of pictures")
+            .real("seconds", 0, 0, 10, "s", "duration of the path that they show; 0: the last step")
+            .boolean("fade", true, "gives newer ones more weight");
     }
     static void complete(Look& look, const ParameterValues& values) {
         look.picture = pictureOf(values);

@@ -1,4 +1,4 @@
-// Curves one pixel wide through the positions of the last steps, at most to the birth. Lines approximate them.
+// Curves one pixel wide through the positions of the last steps, at most back to the birth, approximated by lines.
 #include "methods/kit/particles/render_part.h"
 
 namespace dustbench::particles::parts::render::curves {
@@ -8,9 +8,9 @@ struct Traits {
     static constexpr Primitive primitive = Primitive::curves;
 
     static void declare(ParameterSet& set) {
-        set.integer("steps", 1, 1, 30, "", "of the path that a curve shows")
-            .integer("pieces", 4, 1, 32, "", "straight pieces that each step is drawn with")
-            .boolean("fade", true, "the old end is transparent");
+        set.integer("steps", 1, 1, 30, "", "number of steps that a curve shows")
+            .integer("pieces", 4, 1, 32, "", "number of straight pieces per step")
+            .boolean("fade", true, "makes the old end transparent");
     }
     static void complete(Look& look, const ParameterValues& values) {
         look.steps = static_cast<int>(values.integer("steps"));
@@ -22,7 +22,7 @@ struct Traits {
 }  // namespace
 
 PartInfo describe() {
-    return LookPart<Traits>::describe("curves through the last positions, which lines approximate", "Thesis, 4.1.3",
+    return LookPart<Traits>::describe("curves through the last positions, drawn as lines", "Thesis, 4.1.3",
                                       Blending::additive);
 }
 

@@ -9,7 +9,7 @@ struct Traits {
 
     static void declare(ParameterSet& set) {
         set.real("pixels", 1, 0, 255, "pixels", "width of the point; 0: three times the radius, by distance")
-            .real("seconds", 0, 0, 10, "s", "of the path that a line shows; 0: the last step");
+            .real("seconds", 0, 0, 10, "s", "duration of the path that a line shows; 0: the last step");
     }
     static void complete(Look& look, const ParameterValues& values) {
         look.pixels = static_cast<float>(values.real("pixels"));
@@ -21,7 +21,7 @@ struct Traits {
 }  // namespace
 
 PartInfo describe() {
-    return LookPart<Traits>::describe("a point and a faded line each, so that slow particles show too", "Thesis, 4.1.4",
+    return LookPart<Traits>::describe("a point and a faded line each; also shows slow particles", "Thesis, 4.1.4",
                                       Blending::additive);
 }
 

@@ -1,4 +1,4 @@
-// Lines one pixel wide along the path of the last step: straight back along the velocity, at most to the birth.
+// Lines one pixel wide along the path of the last step: straight back along the velocity, at most back to the birth.
 #include "methods/kit/particles/render_part.h"
 
 namespace dustbench::particles::parts::render::lines {
@@ -8,8 +8,8 @@ struct Traits {
     static constexpr Primitive primitive = Primitive::lines;
 
     static void declare(ParameterSet& set) {
-        set.real("seconds", 0, 0, 10, "s", "of the path that a line shows; 0: the last step")
-            .boolean("fade", true, "the old end is transparent");
+        set.real("seconds", 0, 0, 10, "s", "duration of the path that a line shows; 0: the last step")
+            .boolean("fade", true, "makes the old end transparent");
     }
     static void complete(Look& look, const ParameterValues& values) {
         look.seconds = static_cast<float>(values.real("seconds"));

@@ -13,8 +13,8 @@ struct Traits {
     static void declare(ParameterSet& set) {
         std::vector<std::string> names = files::listData("scenes/meshes", ".obj");
         if (std::ranges::find(names, "sphere") == names.end()) names.emplace_back("sphere");
-        set.dataFile("mesh", "sphere", "scenes/meshes", ".obj", names, "in the place of each particle")
-            .boolean("along_velocity", false, "turned so that its x axis follows the velocity");
+        set.dataFile("mesh", "sphere", "scenes/meshes", ".obj", names, "mesh drawn in place of each particle")
+            .boolean("along_velocity", false, "turns the mesh so that its x axis follows the velocity");
     }
     static void complete(Look& look, const ParameterValues& values) {
         look.mesh = values.choice("mesh");
@@ -25,7 +25,7 @@ struct Traits {
 }  // namespace
 
 PartInfo describe() {
-    return LookPart<Traits>::describe("a mesh in the place of each particle", "Thesis, 4.1.7", Blending::alpha);
+    return LookPart<Traits>::describe("a mesh in place of each particle", "Thesis, 4.1.7", Blending::alpha);
 }
 
 }  // namespace dustbench::particles::parts::render::objects

@@ -1,4 +1,4 @@
-// Points of a width in pixels, or of the particle's own size.
+// Points with a width in pixels, or with the particle's own size.
 #include "methods/kit/particles/render_part.h"
 
 namespace dustbench::particles::parts::render::points {
@@ -20,7 +20,7 @@ struct Traits {
 }  // namespace
 
 PartInfo describe() {
-    return LookPart<Traits>::describe("points: the fastest", "Thesis, 4.1.2", Blending::additive);
+    return LookPart<Traits>::describe("points, the fastest to draw", "Thesis, 4.1.2", Blending::additive);
 }
 
 }  // namespace dustbench::particles::parts::render::points

@@ -1,4 +1,4 @@
-// Particles that shine by themselves and light what stands around them: luminosity += 1 for the particles, and a few
+// Particles that emit light and light their surroundings: luminosity += 1 for the particles, and a few
 // lamps for the scene (emitted_light.h).
 #include "methods/kit/particles/shading_part.h"
 
@@ -30,10 +30,9 @@ class Glowing final : public ShadingPart {
 
 PartInfo describe() {
     PartInfo info;
-    info.help = "particles shine by themselves, and light the ground, the solids and the car";
+    info.help = "particles emit light, which falls on the ground, the solids and the car";
     info.source = "Thesis, 6.3";
-    info.parameters
-        .integer("lights", 1, 1, 16, "", "lights at a point that stand for the particles, divided by their age")
+    info.parameters.integer("lights", 1, 1, 16, "", "number of point lights that replace the particles, grouped by age")
         .real("strength", 20, 0, 1e6, "1/m", "k: a light's intensity is k·Σ colour·opacity·radius³, in m²");
     info.create = [](const ParameterValues& values) { return std::make_unique<Glowing>(values); };
     return info;

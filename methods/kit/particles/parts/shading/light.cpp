@@ -61,13 +61,13 @@ PartInfo describe() {
     PartInfo info;
     info.help = "a coloured light at a point, without shadows";
     info.source = "Thesis, 6.2.3";
-    declareVector(info.parameters, "place", spaceAxes, {0, 3, 0}, -1e6, 1e6, "m", "of the light, in the world");
+    declareVector(info.parameters, "place", spaceAxes, {0, 3, 0}, -1e6, 1e6, "m", "position of the light in the world");
     declareVector(info.parameters, "colour", colourAxes, {1, 1, 1}, 0, 100, "", "linear RGB");
     info.parameters
         .choice("falloff", Falloff::square, falloffs,
-                "how the luminosity falls with the distance; 1/d3: through something that attenuates it, rain or fog")
+                "how the luminosity falls with the distance; 1/d3: through rain or fog")
         .real("intensity", 4, 0, 1e6, "m² or m³", "I: the luminosity at a distance of 1 m")
-        .real("maximum", 1, 1e-3, 1e3, "", "largest luminosity that this light gives, near its place");
+        .real("maximum", 1, 1e-3, 1e3, "", "maximum luminosity from this light, reached near it");
     info.create = [](const ParameterValues& values) { return std::make_unique<Light>(values); };
     return info;
 }

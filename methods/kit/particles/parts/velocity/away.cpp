@@ -1,6 +1,6 @@
 // Away from the source's centre: v = (average + R·variation + speed_per_metre·d)·D, d the distance to the centre.
 //
-// A particle born at the very centre leaves in a random direction, uniform on the sphere.
+// A particle born exactly at the centre leaves in a random direction, uniform on the sphere.
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/maths/sampling.h"
 #include "methods/kit/particles/random_speed.h"
@@ -36,10 +36,10 @@ void AwayVelocity::launch(Newborns& newborns, const Step& step) const {
 
 PartInfo describe() {
     PartInfo info;
-    info.help = "away from the source's centre; from the very centre in a random direction";
+    info.help = "away from the source's centre; in a random direction if born exactly there";
     info.source = "Thesis, 4.3.4";
     RandomSpeed::declare(info.parameters);
-    info.parameters.real("speed_per_metre", 0, -1000, 1000, "1/s", "added per metre between birth and centre");
+    info.parameters.real("speed_per_metre", 0, -1000, 1000, "1/s", "added per metre between birthplace and centre");
     info.create = [](const ParameterValues& values) { return std::make_unique<AwayVelocity>(values); };
     return info;
 }

@@ -55,14 +55,14 @@ void ConeVelocity::launch(Newborns& newborns, const Step& step) const {
 
 PartInfo describe() {
     PartInfo info;
-    info.help = "within a cone, faster with the vehicle's speed";
+    info.help = "within a cone; the speed can grow with the vehicle's";
     info.source = "Thesis, 4.3.1 and 4.3.2; Carr2006, 2.1";
     info.parameters.choice("mode", maths::SamplingMode::fixed, samplingModes,
                            "paper: angle √R·half_angle; fixed: uniform over the cone, its cosine interpolated");
     declareVector(info.parameters, "direction", spaceAxes, {0, 1, 0}, -1, 1, "", "axis: forward, up, right");
     info.parameters.real("half_angle_degrees", 30, 0, 180, "°", "half the cone's opening")
         .real("speed", 1, 0, 1000, "m/s", "along the cone, independent of the vehicle")
-        .real("speed_share", 0, 0, 10, "", "of the vehicle's speed, added to `speed`")
+        .real("speed_share", 0, 0, 10, "", "share of the vehicle's speed, added to `speed`")
         .real("variation", 0.5, 0, 1, "", "maximum deviation from that speed, relative")
         .real("inherit", 0, -10, 10, "", "share of the emitter's own velocity that particles keep");
     info.create = [](const ParameterValues& values) { return std::make_unique<ConeVelocity>(values); };

@@ -24,7 +24,7 @@ maths::Cone coneOf(const ParameterValues& values) {
 
 class NestedVelocity final : public VelocityPart {
  public:
-    /// Throws InputError for a direction of zero length, or if the inner cone is the wider one.
+    /// Throws InputError for a direction of zero length, or if the inner cone is wider than the outer one.
     explicit NestedVelocity(const ParameterValues& values)
         : VelocityPart(values), cone_(coneOf(values)), speed_(values) {}
 

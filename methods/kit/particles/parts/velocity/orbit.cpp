@@ -62,14 +62,14 @@ void OrbitVelocity::launch(Newborns& newborns, const Step& step) const {
 
 PartInfo describe() {
     PartInfo info;
-    info.help = "around an axis through the source's centre, on circular orbits about an attractor there";
+    info.help = "around an axis through the source's centre, in circular orbits around an attractor there";
     info.source = "Thesis, 5.2.2; Plummer1911";
     declareVector(info.parameters, "axis", spaceAxes, {0, 1, 0}, -1, 1, "",
-                  "turns counter-clockwise seen from its tip");
-    info.parameters.real("speed", 0, -1000, 1000, "m/s", "mean speed, added to that of the orbit")
-        .real("variation", 0, 0, 1000, "m/s", "largest departure from the mean")
+                  "axis of rotation, counter-clockwise seen from its tip");
+    info.parameters.real("speed", 0, -1000, 1000, "m/s", "mean speed, added to the orbital speed")
+        .real("variation", 0, 0, 1000, "m/s", "maximum deviation from the mean")
         .choice("law", AttractionLaw::inverseSquare, attractionLaws, attractionLawHelp)
-        .real("strength", 10, 0, 1e6, "", "k of the attractor; 0: no orbit, `speed` alone")
+        .real("strength", 10, 0, 1e6, "", "k of the attractor; 0: no orbit, only `speed`")
         .real("softening_metres", 0.05, 1e-3, 1e4, "m", "ε of the attractor");
     info.create = [](const ParameterValues& values) { return std::make_unique<OrbitVelocity>(values); };
     return info;
