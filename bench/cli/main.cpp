@@ -93,7 +93,8 @@ int run(const std::vector<std::string>& argv) {
     std::vector<Command> commands{listCommand(),      envCommand(),    runCommand(),    compareCommand(),
                                   recommendCommand(), suiteCommand(),  mergeCommand(),  reproduceCommand(),
                                   reportCommand(),    exportCommand(), diffCommand(),   viewCommand(),
-                                  newMethodCommand(), bundleCommand(), verifyCommand(), selfcheckCommand()};
+                                  newMethodCommand(), bundleCommand(), verifyCommand(), selfcheckCommand(),
+                                  measureMachineCommand()};
     std::ranges::move(toolCommands(), std::back_inserter(commands));
     const CommonOptions common = commonOptions();
     std::ranges::move(manualCommands(commands, common), std::back_inserter(commands));

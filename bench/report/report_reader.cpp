@@ -12,6 +12,7 @@
 #include "bench/report/picture_sets.h"
 #include "bench/report/published_points.h"
 #include "bench/report/run_groups.h"
+#include "bench/report/selfcheck_findings.h"
 #include "bench/results/measured_on.h"
 #include "bench/results/method_time.h"
 #include "bench/results/results_folder.h"
@@ -231,6 +232,7 @@ ReportData readReport(const fs::path& folder, std::int64_t maximumPictureBytes) 
     data.folder = (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();
     data.writtenUtc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
     data.tablesOnly = holdsTablesAlone(folder);
+    data.problems = selfcheckProblems(folder);
     readRuns(folder, data);
     const MachineOfRun machineOf = findMachines(data);
     noteBuilds(data);
