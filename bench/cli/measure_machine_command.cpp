@@ -160,10 +160,10 @@ class MachineMeasurement {
     }
 
  private:
-    static std::vector<bench::LadderCell> laddersOf(const std::vector<bench::MachineCell>& cells) {
+    static std::vector<bench::LadderCell> laddersOf(const std::vector<bench::PlacedCell>& cells) {
         std::vector<bench::LadderCell> ladders;
         ladders.reserve(cells.size());
-        for (const bench::MachineCell& cell : cells) ladders.push_back(cell.ladder);
+        for (const bench::PlacedCell& cell : cells) ladders.push_back(cell.ladder);
         return ladders;
     }
 
@@ -205,7 +205,7 @@ class MachineMeasurement {
         if (step.skip.empty()) ladder_.failed(step);
     }
 
-    std::vector<bench::MachineCell> cells_;
+    std::vector<bench::PlacedCell> cells_;
     bench::LadderLimits limits_;
     bench::LoadLadder ladder_;
     bench::ResultsFolder& results_;
@@ -250,7 +250,7 @@ void writeResults(const bench::ResultsFolder& results) {
 int measureMachine(const MeasureMachineOptions& options) {
     const bench::MachinePlan plan = bench::loadMachinePlan(options.quick);
     std::vector<bench::PlannedRun> runs;
-    for (bench::MachineCell& cell : bench::cellsOf(plan)) runs.push_back(std::move(cell.run));
+    for (bench::PlacedCell& cell : bench::cellsOf(plan)) runs.push_back(std::move(cell.run));
     checkWorlds(runs);
     const fs::path out(options.out), archive = bundleOf(out);
     if (fs::exists(fs::symlink_status(archive)) && !fs::exists(out / "runs"))
@@ -281,8 +281,8 @@ Command measureMachineCommand() {
     auto options = std::make_shared<MeasureMachineOptions>();
     return {"measure-machine", "Measure how fast this machine is: error and time of every method, in one bundle",
             "Takes at most 10 minutes on a GPU, 30 without one: self-check, then each method from 1,000 particles up at\n"
-            "three sizes, the fluid and ray casts, as far as time and memory allow. The reason is recorded with what is\n"
-            "left out. Writes DIR/index.html, DIR/tables and the bundle DIR.tar. The same command resumes.\n"
+            "three sizes, the fluid and ray casts, as far as time and memory allow. Runs that are left out are recorded\n"
+            "with the reason. Writes DIR/index.html, DIR/tables and the bundle DIR.tar. The same command resumes.\n"
             "Exit code 1: a check or a run failed.",
             [options](Arguments& arguments) {
                 arguments.required("--out", "DIR", "folder for the results; created if missing", options->out);

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "bench/results/disk_need.h"
 #include "methods/kit/maths/philox.h"
 
 namespace dustbench::bench {
@@ -18,8 +19,8 @@ std::string secondsText(double seconds) {
     return fmt::format("{:.{}f} s", seconds, seconds < 10 ? 1 : 0);
 }
 
-std::string gigabytesText(double bytes) {
-    return fmt::format("{:.1f} GB", bytes / 1e9);
+std::string sizeText(double bytes) {
+    return bytesText(static_cast<std::uint64_t>(bytes));
 }
 
 /// Beyond the least, in proportion.
@@ -186,11 +187,11 @@ std::string LoadLadder::whyNot(std::size_t cell, double elapsedSeconds, State& s
     if (needs.seconds > limits_.runSeconds)
         return fmt::format("{}, allowed: {} for one run", about, secondsText(limits_.runSeconds));
     if (needs.hostBytes > limits_.hostBytes)
-        return fmt::format("would need about {} of memory, allowed: {}", gigabytesText(needs.hostBytes),
-                           gigabytesText(limits_.hostBytes));
+        return fmt::format("would need about {} of memory, allowed: {}", sizeText(needs.hostBytes),
+                           sizeText(limits_.hostBytes));
     if (needs.deviceBytes > limits_.deviceBytes)
-        return fmt::format("would need about {} of GPU memory, allowed: {}", gigabytesText(needs.deviceBytes),
-                           gigabytesText(limits_.deviceBytes));
+        return fmt::format("would need about {} of GPU memory, allowed: {}", sizeText(needs.deviceBytes),
+                           sizeText(limits_.deviceBytes));
     const double left = std::max(limits_.totalSeconds - elapsedSeconds, 0.0);
     if (left == 0) return fmt::format("the limit of {} for all runs is reached", secondsText(limits_.totalSeconds));
     if (needs.allSeconds() > left)

@@ -107,8 +107,8 @@ double loadOf(const std::string& value) {
     }
 }
 
-std::vector<MachineCell> cellsOf(const MachinePlan& plan) {
-    std::vector<MachineCell> cells;
+std::vector<PlacedCell> cellsOf(const MachinePlan& plan) {
+    std::vector<PlacedCell> cells;
     std::set<std::string> known;  // suites share runs of the null method
     for (const auto& [suite, load] : plan.suites)
         for (PlannedRun cell : withBaselines(suite).cells) {

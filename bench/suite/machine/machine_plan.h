@@ -32,11 +32,11 @@ struct MachinePlan {
 [[nodiscard]] std::vector<std::filesystem::path> machinePlanFiles();
 
 /// A cell with its place on a ladder; the null method's cells are among them (baselines.h). Each run once.
-struct MachineCell {
+struct PlacedCell {
     PlannedRun run;
     LadderCell ladder;
 };
-[[nodiscard]] std::vector<MachineCell> cellsOf(const MachinePlan& plan);
+[[nodiscard]] std::vector<PlacedCell> cellsOf(const MachinePlan& plan);
 
 /// The load that a parameter's value stands for: a number, or the number of cells of `128x64x64`. Throws InputError.
 [[nodiscard]] double loadOf(const std::string& value);
