@@ -22,6 +22,7 @@
 #include "bench/report/report_reader.h"
 #include "bench/report/selfcheck_findings.h"
 #include "bench/results/machine_table.h"
+#include "bench/results/run_table.h"
 #include "bench/run/child_process.h"
 #include "bench/run/progress.h"
 #include "bench/suite/bundle/bundle.h"
@@ -231,6 +232,7 @@ void writeTables(const bench::ResultsFolder& results) {
     fs::create_directories(tables, error);
     if (error) files::failWriting(tables.string(), error.value());
     bench::writeWhole(tables / "summary.csv", bench::summaryCsv(results.runs()));
+    bench::writeWhole(tables / "runs.csv", bench::runsCsv(results.runs()));
     bench::writeWhole(tables / "machine.csv", bench::machineCsv(results.runs()));
     if (const fs::path found = results.path() / "selfcheck.json"; fs::exists(found))
         fs::copy_file(found, tables / "selfcheck.json", fs::copy_options::overwrite_existing);

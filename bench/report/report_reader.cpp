@@ -33,8 +33,10 @@ void readRuns(const fs::path& folder, ReportData& data) {
     if (data.tablesOnly) {
         data.runs = readSummaryRuns(folder, data.problems);
         adoptOlderRows(data.runs, data.problems);
+        const bool hasWarnings = fs::exists(folder / "runs.csv", error);
         data.problems.push_back(
-            "the folder contains only tables: frame times, pictures and warnings of its runs are not shown");
+            fmt::format("the folder contains only tables: frame times{} of its runs are not shown",
+                        hasWarnings ? " and pictures" : ", pictures and warnings"));
         return;
     }
     fs::directory_iterator entry(folder / "runs", error);

@@ -73,28 +73,40 @@ void LoadLadder::sortSteps() {
 std::optional<LadderStep> LoadLadder::next(double elapsedSeconds) {
     while (next_ < steps_.size()) {
         const auto [cell, repetition] = steps_[next_++];
+        LadderStep step{cell, repetition, {}};
         if (repetition == 1) {
-            LadderStep step{cell, repetition, {}};
-            State state = State::leftOut;
-            step.skip = whyNot(cell, elapsedSeconds, state);
-            if (!step.skip.empty()) states_[cell] = state;
+            step.skip = whyNotMeasured(cell, elapsedSeconds);
+            if (!step.skip.empty()) {
+                states_[cell] = State::leftOut;
+            } else if (step.skip = whyNotJudged(cell, elapsedSeconds); !step.skip.empty()) {
+                states_[cell] = State::notJudged;
+                repeatNow(cell);
+            }
             return step;
         }
+        if (states_[cell] == State::notJudged) return step;
         if (states_[cell] != State::done) continue;
-        if (elapsedSeconds + needs_[cell].seconds <= limits_.totalSeconds) return LadderStep{cell, repetition, {}};
+        if (elapsedSeconds + needs_[cell].seconds <= limits_.totalSeconds) return step;
         ++repetitionsLeftOut_;
     }
     return std::nullopt;
 }
 
+/// The second run comes next.
+void LoadLadder::repeatNow(std::size_t cell) {
+    const auto begin = steps_.begin() + static_cast<std::ptrdiff_t>(next_);
+    const auto second = std::find(begin, steps_.end(), std::pair(cell, 2));
+    if (second != steps_.end()) std::rotate(begin, second, std::next(second));
+}
+
 void LoadLadder::done(const LadderStep& step, const RunNeeds& needs) {
-    if (step.repetition > 1) return;
+    if (step.repetition > 1 && states_[step.cell] != State::notJudged) return;
     states_[step.cell] = State::done;
     needs_[step.cell] = needs;
 }
 
 void LoadLadder::failed(const LadderStep& step) {
-    if (step.repetition == 1) states_[step.cell] = State::failed;
+    if (step.repetition == 1 || states_[step.cell] == State::notJudged) states_[step.cell] = State::failed;
 }
 
 /// The next lower load at the same size whose pictures were not the only reason to leave it out.
@@ -172,8 +184,7 @@ std::optional<RunNeeds> LoadLadder::predicted(std::size_t cell) const {
     return prediction;
 }
 
-/// Empty if the cell is to run. `state`: what it becomes otherwise.
-std::string LoadLadder::whyNot(std::size_t cell, double elapsedSeconds, State& state) const {
+std::string LoadLadder::whyNotMeasured(std::size_t cell, double elapsedSeconds) const {
     if (const auto lower = below(cell)) {
         const double load = cells_[*lower].load;
         if (states_[*lower] == State::failed) return fmt::format("the lower load {:.10g} failed", load);
@@ -181,8 +192,7 @@ std::string LoadLadder::whyNot(std::size_t cell, double elapsedSeconds, State& s
     }
     if (const auto less = smaller(cell); less && states_[*less] == State::failed) return "a smaller picture failed";
 
-    RunNeeds needs = predicted(cell).value_or(RunNeeds());
-    needs.judgingSeconds = judgingSeconds(cell);
+    const RunNeeds needs = predicted(cell).value_or(RunNeeds());
     const std::string about = "would take about " + secondsText(needs.seconds);
     if (needs.seconds > limits_.runSeconds)
         return fmt::format("{}, allowed: {} for one run", about, secondsText(limits_.runSeconds));
@@ -192,16 +202,20 @@ std::string LoadLadder::whyNot(std::size_t cell, double elapsedSeconds, State& s
     if (needs.deviceBytes > limits_.deviceBytes)
         return fmt::format("would need about {} of GPU memory, allowed: {}", sizeText(needs.deviceBytes),
                            sizeText(limits_.deviceBytes));
-    const double left = std::max(limits_.totalSeconds - elapsedSeconds, 0.0);
-    if (left == 0) return fmt::format("the limit of {} for all runs is reached", secondsText(limits_.totalSeconds));
-    if (needs.allSeconds() > left)
-        return fmt::format("would take about {}, but {} of {} for all runs are left", secondsText(needs.allSeconds()),
-                           secondsText(left), secondsText(limits_.totalSeconds));
-    if (needs.judgingSeconds > limits_.judgingSeconds) {
-        state = State::notJudged;
-        return fmt::format("comparing its pictures would take about {}, allowed: {}",
-                           secondsText(needs.judgingSeconds), secondsText(limits_.judgingSeconds));
-    }
+    const double left = limits_.totalSeconds - elapsedSeconds;
+    if (left <= 0) return fmt::format("the limit of {} for all runs is reached", secondsText(limits_.totalSeconds));
+    if (needs.seconds > left)
+        return fmt::format("{}, but {} of {} for all runs are left", about, secondsText(left),
+                           secondsText(limits_.totalSeconds));
+    return "";
+}
+
+std::string LoadLadder::whyNotJudged(std::size_t cell, double elapsedSeconds) const {
+    const double needed = judgingSeconds(cell);
+    const double left = limits_.totalSeconds - elapsedSeconds - predicted(cell).value_or(RunNeeds()).seconds;
+    const std::string about = "comparing its pictures would take about " + secondsText(needed);
+    if (needed > limits_.judgingSeconds) return about + ", allowed: " + secondsText(limits_.judgingSeconds);
+    if (needed > left) return about + ", but " + secondsText(left) + " are left";
     return "";
 }
 

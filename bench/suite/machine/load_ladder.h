@@ -5,7 +5,9 @@
 // was left out, the cells that ran are repeated in the same order, as long as time remains.
 //
 // A run is predicted from the next lower load at the same size, and from the same load at the next smaller size: what it
-// takes beyond the least of its suite is assumed to grow with the load, or with the number of pixels.
+// takes beyond the least of its suite is assumed to grow with the load, or with the number of pixels. Where the
+// comparison of its pictures alone takes too long, the first run is left out and the second, which has none, comes at
+// once.
 //
 // Units: seconds, bytes. Threads: plain data.
 #pragma once
@@ -83,7 +85,9 @@ class LoadLadder {
     [[nodiscard]] std::optional<std::size_t> smaller(std::size_t cell) const;
     [[nodiscard]] RunNeeds leastOf(std::size_t cell, bool atItsSize) const;
     [[nodiscard]] double judgingSeconds(std::size_t cell) const;
-    [[nodiscard]] std::string whyNot(std::size_t cell, double elapsedSeconds, State& state) const;
+    [[nodiscard]] std::string whyNotMeasured(std::size_t cell, double elapsedSeconds) const;
+    [[nodiscard]] std::string whyNotJudged(std::size_t cell, double elapsedSeconds) const;
+    void repeatNow(std::size_t cell);
     void sortSteps();
 
     std::vector<LadderCell> cells_;

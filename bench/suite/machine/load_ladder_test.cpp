@@ -176,14 +176,14 @@ TEST(LoadLadder, PredictsTheGrowthOfWhatARunTakesBeyondTheLeastOfItsSuite) {
     EXPECT_DOUBLE_EQ(ladder.predicted(3)->seconds, 2) << "the least itself: its growth is not known";
 }
 
-TEST(LoadLadder, JudgingHasALimitOfItsOwnAndDoesNotEndALadder) {
-    std::vector<LadderCell> cells = twoMethods({1e3, 1e4, 1e5});
+TEST(LoadLadder, ARunWhosePicturesTakeTooLongToCompareIsMeasuredWithoutThem) {
+    std::vector<LadderCell> cells = twoMethods({1e3, 1e4, 1e5}, 2);
     for (LadderCell& cell : cells) cell.judged = cell.pixels == hd && cell.load <= 1e4;
     LadderLimits limits = roomy;
     limits.judgingSeconds = 20;
     const auto needs = [](const LadderCell& cell) {
         RunNeeds made = linear(cell);
-        if (cell.judged) made.judgingSeconds = cell.load / 200;
+        if (cell.judged && cell.load == 1e3) made.judgingSeconds = cell.load / 200;
         return made;
     };
     const Walk cut = walk(cells, limits, needs);
@@ -191,6 +191,13 @@ TEST(LoadLadder, JudgingHasALimitOfItsOwnAndDoesNotEndALadder) {
     EXPECT_EQ(cut.whyNot(1), "comparing its pictures would take about 50 s, allowed: 20 s");
     EXPECT_EQ(cut.whyNot(2), "") << "a higher load without metrics";
     EXPECT_EQ(cut.whyNot(4), "") << "a larger size without metrics";
+    const auto skipped = std::ranges::find_if(
+        cut.steps, [](const LadderStep& step) { return step.cell == 1 && step.repetition == 1; });
+    EXPECT_EQ(std::next(skipped)->cell, 1u);
+    EXPECT_EQ(std::next(skipped)->repetition, 2);
+    EXPECT_EQ(cut.steps.size(), 2 * cells.size()) << "each run once";
+    for (LadderCell& cell : cells) cell.repetitions = 1;
+    EXPECT_EQ(walk(cells, limits, needs).whyNot(2), "") << "nor does the gap end the ladder";
 }
 
 TEST(LoadLadder, RepeatsWhatRanAsLongAsTimeRemains) {
