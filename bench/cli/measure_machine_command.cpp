@@ -69,8 +69,7 @@ bench::LadderLimits limitsHere(const bench::MachinePlan& plan) {
     const gpu::Device device;
     bench::LadderLimits limits = device.isSoftware() ? plan.software : plan.hardware;
     limits.hostBytes = plan.memoryShare * static_cast<double>(availableBytes());
-    if (const auto free = device.driverFreeBytes())
-        limits.deviceBytes = plan.memoryShare * static_cast<double>(*free);
+    if (const auto free = device.driverFreeBytes()) limits.deviceBytes = plan.memoryShare * static_cast<double>(*free);
     std::cerr << fmt::format("{}: at most {}\n", files::printable(device.info().renderer),
                              bench::durationText(limits.totalSeconds));
     return limits;
@@ -122,8 +121,8 @@ bool clockFell(const bench::StoredRun& run) {
 /// Works through the ladder; what is measured already counts with the time it took.
 class MachineMeasurement {
  public:
-    MachineMeasurement(const bench::MachinePlan& plan, const bench::LadderLimits& limits,
-                       bench::ResultsFolder& results, double elapsedSeconds)
+    MachineMeasurement(const bench::MachinePlan& plan, const bench::LadderLimits& limits, bench::ResultsFolder& results,
+                       double elapsedSeconds)
         : cells_(bench::cellsOf(plan)),
           limits_(limits),
           ladder_(laddersOf(cells_), limits),
@@ -281,16 +280,17 @@ int measureMachine(const MeasureMachineOptions& options) {
 
 Command measureMachineCommand() {
     auto options = std::make_shared<MeasureMachineOptions>();
-    return {"measure-machine", "Measure how fast this machine is: error and time of every method, in one bundle",
-            "Takes at most 10 minutes on a GPU, 30 without one: self-check, then each method from 1,000 particles up at\n"
-            "three sizes, the fluid and ray casts, as far as time and memory allow. Runs that are left out are recorded\n"
-            "with the reason. Writes DIR/index.html, DIR/tables and the bundle DIR.tar. The same command resumes.\n"
-            "Exit code 1: a check or a run failed.",
-            [options](Arguments& arguments) {
-                arguments.required("--out", "DIR", "folder for the results; created if missing", options->out);
-                arguments.flag("--quick", "a few seconds of tiny runs, to try the command", options->quick);
-            },
-            [options] { return measureMachine(*options); }};
+    return {
+        "measure-machine", "Measure how fast this machine is: error and time of every method, in one bundle",
+        "Takes at most 10 minutes on a GPU, 30 without one: self-check, then each method from 1,000 particles up at\n"
+        "three sizes, the fluid and ray casts, as far as time and memory allow. Runs that are left out are recorded\n"
+        "with the reason. Writes DIR/index.html, DIR/tables and the bundle DIR.tar. The same command resumes.\n"
+        "Exit code 1: a check or a run failed.",
+        [options](Arguments& arguments) {
+            arguments.required("--out", "DIR", "folder for the results; created if missing", options->out);
+            arguments.flag("--quick", "a few seconds of tiny runs, to try the command", options->quick);
+        },
+        [options] { return measureMachine(*options); }};
 }
 
 }  // namespace dustbench::cli

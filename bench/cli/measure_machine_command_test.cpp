@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <map>
 
 #include "bench/cli/called_program.h"
 #include "methods/kit/files/csv.h"
@@ -36,7 +37,9 @@ class MeasureMachine : public Dustbench {
             << "methods = [\"billboard\"]\nsizes = [\"48x36\", \"64x48\"]\nframes = 5\nwarmup = 1\n"
                "[parameters]\nparticles = [50, 100]\npreroll = 0.1\n";
     }
-    [[nodiscard]] files::CsvTable summary() const { return files::CsvTable::parseFile(folder_ / "out" / "summary.csv"); }
+    [[nodiscard]] files::CsvTable summary() const {
+        return files::CsvTable::parseFile(folder_ / "out" / "summary.csv");
+    }
 };
 
 TEST_F(MeasureMachine, MeasuresErrorAndTimeAndPacksABundleThatVerifies) {
@@ -49,8 +52,7 @@ TEST_F(MeasureMachine, MeasuresErrorAndTimeAndPacksABundleThatVerifies) {
     for (std::size_t row = 0; row < table.rows(); ++row) {
         EXPECT_EQ(table.cell(row, "status"), "done") << table.cell(row, "reason");
         EXPECT_GT(table.number(row, "run_s"), 0);
-        hasBoth = hasBoth ||
-                  (!table.cell(row, "flip_mask").empty() && !table.cell(row, "method_ms_median").empty());
+        hasBoth = hasBoth || (!table.cell(row, "flip_mask").empty() && !table.cell(row, "method_ms_median").empty());
     }
     EXPECT_TRUE(hasBoth) << "error and time stand in one row";
     for (const char* file : {"index.html", "selfcheck.json", "tables/summary.csv", "tables/machine.csv"})
@@ -73,21 +75,25 @@ TEST_F(MeasureMachine, MeasuresErrorAndTimeAndPacksABundleThatVerifies) {
     const Called again = call("measure-machine --quick --out " + out() + data);
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_THAT(again.err, Not(HasSubstr("self-check"))) << "everything is there already";
-    const Called tables = call("report " + at("out/tables") + " " + out() + " --text" + data);
-    EXPECT_EQ(tables.code, 0) << tables.err;
+    fs::copy(folder_ / "out" / "tables", folder_ / "other");
+    std::string machine = contentOf(folder_ / "other" / "machine.csv");
+    machine.replace(machine.rfind(",20"), 3, ",19");  // another century, so that it is no copy
+    std::ofstream(folder_ / "other" / "machine.csv") << machine;
+    const Called machines = call("report " + at("out/tables") + " " + at("other") + " --text" + data);
+    EXPECT_EQ(machines.code, 0) << machines.err;
 }
 
 TEST_F(MeasureMachine, LeavesOutWhatDoesNotFitAndSaysWhy) {
     const std::string data = dataWith(true);
-    usePlan("total_limit_s = 1\nrun_limit_s = 60\njudging_limit_s = 60");
+    usePlan("total_limit_s = 0.1\nrun_limit_s = 60\njudging_limit_s = 60");
     const Called called = call("measure-machine --out " + out() + data);
-    EXPECT_EQ(called.code, 1) << called.err << "nothing fits into one second after the self-check";
+    EXPECT_EQ(called.code, 1) << called.err << "the self-check took all the time";
     const files::CsvTable table = summary();
     EXPECT_EQ(table.rows(), 4u);
     for (std::size_t row = 0; row < table.rows(); ++row) {
         EXPECT_EQ(table.cell(row, "status"), "skipped");
-        EXPECT_THAT(table.cell(row, "reason"), testing::AnyOf(HasSubstr("the limit of 1.0 s for all runs is reached"),
-                                                              HasSubstr("was left out")));
+        EXPECT_THAT(table.cell(row, "reason"),
+                    testing::AnyOf(HasSubstr("the limit of 0.1 s for all runs is reached"), HasSubstr("was left out")));
     }
     usePlan("total_limit_s = 100\nrun_limit_s = 60\njudging_limit_s = 60");
     const Called longer = call("measure-machine --out " + out() + data);
@@ -104,6 +110,22 @@ TEST_F(MeasureMachine, AFailedSelfCheckEndsWithOneAfterTheRestWasMeasuredAndMark
     EXPECT_THAT(called.err, HasSubstr("dustbench: the self-check failed, the results may be wrong: picture dust"));
     EXPECT_THAT(contentOf(folder_ / "out" / "index.html"), HasSubstr("the self-check failed"));
     EXPECT_EQ(call("verify " + at("out.tar") + " --runs 0" + data).code, 0);
+}
+
+TEST_F(MeasureMachine, ResumesWhereItWasInterrupted) {
+    const std::string arguments = "measure-machine --quick --out " + out() + dataWith(true);
+    const Called stopped =
+        callAs("timeout", fmt::format("--preserve-status -s INT 7 '{}' {}", DUSTBENCH_PROGRAM, arguments));
+    ASSERT_EQ(stopped.code, 2) << stopped.err;
+    EXPECT_THAT(stopped.err, HasSubstr("aborted; the same command resumes"));
+    EXPECT_FALSE(fs::exists(folder_ / "out.tar"));
+    std::map<std::string, std::string> before;
+    if (fs::exists(folder_ / "out" / "runs"))
+        for (const fs::path& run : runs(out())) before[run.filename()] = contentOf(run / "run.json");
+    const Called resumed = call(arguments);
+    EXPECT_EQ(resumed.code, 0) << resumed.err;
+    for (const auto& [run, json] : before) EXPECT_EQ(contentOf(folder_ / "out" / "runs" / run / "run.json"), json);
+    EXPECT_TRUE(fs::exists(folder_ / "out.tar"));
 }
 
 TEST_F(MeasureMachine, RefusesABundleThatIsNotItsOwn) {

@@ -34,9 +34,8 @@ void readRuns(const fs::path& folder, ReportData& data) {
         data.runs = readSummaryRuns(folder, data.problems);
         adoptOlderRows(data.runs, data.problems);
         const bool hasWarnings = fs::exists(folder / "runs.csv", error);
-        data.problems.push_back(
-            fmt::format("the folder contains only tables: frame times{} of its runs are not shown",
-                        hasWarnings ? " and pictures" : ", pictures and warnings"));
+        data.problems.push_back(fmt::format("the folder contains only tables: frame times{} of its runs are not shown",
+                                            hasWarnings ? " and pictures" : ", pictures and warnings"));
         return;
     }
     fs::directory_iterator entry(folder / "runs", error);
@@ -73,10 +72,20 @@ void noteMixed(ReportData& data, const std::string& problem) {
     data.mixedMachines.push_back(problem);
 }
 
+/// Runs that a suite leaves out, or that ended early, never had a graphics device.
+bool hadDevice(const StoredRun& run) {
+    return run.status == RunStatus::done || !provenanceOf(run, "gl_renderer").empty();
+}
+
 MachineOfRun findMachines(ReportData& data) {
     MachineOfRun machineOf;
     std::vector<std::vector<std::string>> keys;
+    const bool isAnyKnown = std::ranges::any_of(data.runs, [](const auto& entry) { return hadDevice(entry.second); });
     for (const auto& [id, run] : data.runs) {
+        if (isAnyKnown && !hadDevice(run)) {
+            machineOf[id] = 0;
+            continue;
+        }
         const std::vector<std::string> key = valuesOf(run, machineFields());
         auto found = std::ranges::find(keys, key);
         if (found == keys.end()) {
@@ -100,7 +109,9 @@ void noteBuilds(ReportData& data) {
         std::set<std::string> values;
         // Twelve characters identify a commit.
         for (const auto& [id, run] : data.runs)
-            values.insert(field == "git_commit" ? provenanceOf(run, field).substr(0, 12) : provenanceOf(run, field));
+            if (hadDevice(run))
+                values.insert(field == "git_commit" ? provenanceOf(run, field).substr(0, 12)
+                                                    : provenanceOf(run, field));
         if (values.size() > 1)
             noteMixed(data, fmt::format("the runs differ in {}: {}", field, fmt::join(values, ", ")));
     }

@@ -18,10 +18,10 @@ std::vector<std::string> selfcheckProblems(const std::filesystem::path& folder) 
         const auto found = nlohmann::json::parse(files::wholeText(file, "a self-check"));
         for (const auto& check : found.at("checks"))
             if (check.at("outcome") == "failed")
-                problems.push_back(fmt::format("the self-check failed, the results may be wrong: {}: got {}, expected {}",
-                                               check.at("name").get<std::string>(),
-                                               check.at("measured").get<std::string>(),
-                                               check.at("expected").get<std::string>()));
+                problems.push_back(
+                    fmt::format("the self-check failed, the results may be wrong: {}: got {}, expected {}",
+                                check.at("name").get<std::string>(), check.at("measured").get<std::string>(),
+                                check.at("expected").get<std::string>()));
     } catch (const nlohmann::json::exception&) {
         return {"selfcheck.json cannot be read: whether this machine draws correctly is not known"};
     } catch (const InputError& error) {

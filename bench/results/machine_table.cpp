@@ -10,8 +10,8 @@ namespace dustbench::bench {
 namespace {
 
 constexpr std::array<std::string_view, 19> fields{
-    "cpu",       "cores",      "ram_bytes",   "governor", "virtual_machine", "kernel",     "gl_renderer",
-    "gl_vendor", "gl_version", "gl_platform", "adapter",  "gpu_timers",      "version",    "git_commit",
+    "cpu",       "cores",      "ram_bytes",   "governor",   "virtual_machine", "kernel",  "gl_renderer",
+    "gl_vendor", "gl_version", "gl_platform", "adapter",    "gpu_timers",      "version", "git_commit",
     "git_dirty", "compiler",   "flags",       "build_type", "started_utc"};
 
 std::string fieldOf(const StoredRun& run, std::string_view field) {
@@ -24,8 +24,7 @@ std::string fieldOf(const StoredRun& run, std::string_view field) {
 std::string machineCsv(const StoredRuns& runs) {
     const StoredRun* first = nullptr;
     for (const auto& [id, run] : runs)
-        if (run.status == RunStatus::done &&
-            (!first || fieldOf(run, "started_utc") < fieldOf(*first, "started_utc")))
+        if (run.status == RunStatus::done && (!first || fieldOf(run, "started_utc") < fieldOf(*first, "started_utc")))
             first = &run;
     if (!first) throw InputError("machine.csv: no run is done");
     std::string header, row;

@@ -21,8 +21,8 @@ StoredRun runOf(const std::string& started, RunStatus status = RunStatus::done) 
 }
 
 TEST(MachineTable, IsThatOfTheFirstRunAndReadBackWithTheTables) {
-    const StoredRuns runs{{"a", runOf("2026-03-02")}, {"b", runOf("2026-03-01")},
-                          {"c", runOf("2026-02-01", RunStatus::skipped)}};
+    const StoredRuns runs{
+        {"a", runOf("2026-03-02")}, {"b", runOf("2026-03-01")}, {"c", runOf("2026-02-01", RunStatus::skipped)}};
     const TemporaryFolder folder;
     std::ofstream(folder.path() / "machine.csv") << machineCsv(runs);
     std::ofstream(folder.path() / "summary.csv") << "run_id,status,reason,repetition\na,done,,1\n";

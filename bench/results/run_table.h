@@ -1,5 +1,5 @@
-// runs.csv: the settings, hashes and warnings of runs, which summary.csv does not hold. With it, folders of tables alone
-// (summary_runs.h) can be compared between machines, and keep the warnings of their runs.
+// runs.csv: the settings, hashes and warnings of runs, which summary.csv does not hold. With it, folders of tables
+// alone (summary_runs.h) can be compared between machines, and keep the warnings of their runs.
 #pragma once
 
 #include <filesystem>

@@ -33,7 +33,7 @@ struct WholeRun {
     std::optional<double> cpuJoules, gpuJoules;  ///< over the recorded frames
     /// Lowest and highest clock of the GPU over the recorded frames.
     std::optional<std::pair<std::int64_t, std::int64_t>> gpuMegahertz{};
-    bool softwareRenderer = false;               ///< if true, the CPU's energy is the total energy
+    bool softwareRenderer = false;  ///< if true, the CPU's energy is the total energy
 };
 
 /// The columns computed from the frames and the run as a whole.

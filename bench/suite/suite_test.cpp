@@ -373,37 +373,6 @@ soft = true
     EXPECT_EQ(judged, 1);
 }
 
-TEST(Suite, LeavesMetricsOutAlone) {
-    const std::string text =
-        "methods = [\"null_method\"]\nsizes = [\"64x48\", \"128x96\"]\nmetrics = true\nmetric_pictures = false\n"
-        "[parameters]\nwork = [0, 1]\n[[except]]\nonly = \"metrics\"\nsizes = [\"128x96\"]\n"
-        "[[except]]\nonly = \"metrics\"\n[except.parameters]\nwork = 1\n";
-    const Suite suite = parseSuite(text, "s.toml", false);
-    EXPECT_EQ(suite.cells.size(), 4u);
-    for (const PlannedRun& cell : suite.cells) {
-        EXPECT_EQ(cell.spec.judging.has_value(), cell.spec.size.width == 64 && cell.spec.parameters.at("work") == "0");
-        EXPECT_EQ(cell.skip, "");
-        if (!cell.spec.judging) continue;
-        EXPECT_FALSE(cell.spec.judging->keepsPictures);
-        RunSpec withPictures = cell.spec;
-        withPictures.judging->keepsPictures = true;
-        EXPECT_NE(runId(withPictures), runId(cell.spec));
-        EXPECT_EQ(runId(specFromJson(specToJson(cell.spec))), runId(cell.spec));
-    }
-    EXPECT_THAT(messageOf("[[except]]\nonly = \"metrics\"\n"), HasSubstr("matches no configuration"));
-    EXPECT_THAT(messageOf("metrics = true\n[[except]]\nonly = \"metrics\"\nreason = \"late\"\n"),
-                AllOf(HasSubstr("s.toml:3"), HasSubstr("not allowed with 'reason'")));
-    EXPECT_THAT(messageOf("metrics = true\n[[except]]\nonly = \"times\"\n"), HasSubstr("'times'"));
-    EXPECT_THAT(messageOf("metric_pictures = false\n"), HasSubstr("requires 'metrics"));
-}
-
-TEST(Suite, AChartMayBeOfErrorAgainstCost) {
-    const Suite suite = parseSuite("methods = [\"null_method\"]\nchart = \"flip against method_ms_median\"\n", "s", false);
-    EXPECT_EQ(suite.chart.column, "flip");
-    EXPECT_EQ(suite.chart.against, "method_ms_median");
-    EXPECT_THAT(messageOf("chart = \"flip against fps_avg\"\n"), HasSubstr("fps_avg"));
-}
-
 TEST(Suite, SaysWhereMetricsAreAskedForWrongly) {
     EXPECT_THAT(messageOf("metric_frames = \"0:40:8\""), AllOf(HasSubstr("s.toml:1"), HasSubstr("requires 'metrics")));
     EXPECT_THAT(messageOf("frames = 20\nmetrics = true\nmetric_frames = \"0:40:8\""),

@@ -58,9 +58,7 @@ TEST(AcceptedMachines, KeepTheRules) {
 
 TEST(AcceptedMachines, ABrokenRuleIsNamed) {
     const TemporaryFolder folder;
-    const auto write = [&](const char* name, const std::string& text) {
-        std::ofstream(folder.path() / name) << text;
-    };
+    const auto write = [&](const char* name, const std::string& text) { std::ofstream(folder.path() / name) << text; };
     write("summary.csv", "run_id,status,reason,repetition\na,done,,1\nb,skipped,too long,1\n");
     write("runs.csv", "run_id,key,state_hash,method_hash,warnings\na,,,,the machine is busy\n");
     write("selfcheck.json", "{\n  \"passed\": true\n}\n");

@@ -46,8 +46,8 @@ LoadLadder::LoadLadder(std::vector<LadderCell> cells, LadderLimits limits)
     sortSteps();
 }
 
-/// By repetition, rung, size and suite. Within these the methods of one world follow each other in random order, another
-/// in every repetition, so that drift of the machine affects all alike.
+/// By repetition, rung, size and suite. Within these the methods of one world follow each other in random order,
+/// another in every repetition, so that drift of the machine affects all alike.
 void LoadLadder::sortSteps() {
     std::map<std::pair<std::string, std::string>, std::set<double>> loads;
     std::map<std::string, std::size_t> suites;  // in order of appearance

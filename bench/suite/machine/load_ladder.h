@@ -1,11 +1,11 @@
 // Orders the runs of a machine's measurement, and leaves out those that would take too much time or memory.
 //
 // Cells that differ only in their load and in the size of their picture form a ladder. The lowest load of every ladder
-// comes first, at all sizes, then the next one, so that a limit leaves out the highest loads. Once every cell has run or
-// was left out, the cells that ran are repeated in the same order, as long as time remains.
+// comes first, at all sizes, then the next one, so that a limit leaves out the highest loads. Once every cell has run
+// or was left out, the cells that ran are repeated in the same order, as long as time remains.
 //
-// A run is predicted from the next lower load at the same size, and from the same load at the next smaller size: what it
-// takes beyond the least of its suite is assumed to grow with the load, or with the number of pixels. Where the
+// A run is predicted from the next lower load at the same size, and from the same load at the next smaller size: what
+// it takes beyond the least of its suite is assumed to grow with the load, or with the number of pixels. Where the
 // comparison of its pictures alone takes too long, the first run is left out and the second, which has none, comes at
 // once.
 //

@@ -22,8 +22,8 @@ std::vector<LadderCell> twoMethods(const std::vector<double>& loads, int repetit
     for (const char* method : {"fast", "slow"})
         for (const double pixels : {hd, fullHd})
             for (const double load : loads)
-                cells.push_back({.suite = "dust", .ladder = method, .load = load, .pixels = pixels,
-                                 .repetitions = repetitions});
+                cells.push_back(
+                    {.suite = "dust", .ladder = method, .load = load, .pixels = pixels, .repetitions = repetitions});
     return cells;
 }
 
@@ -68,7 +68,8 @@ Walk walk(const std::vector<LadderCell>& cells, const LadderLimits& limits,
 /// One second, and more with load and pixels; the slow method four times as much.
 RunNeeds linear(const LadderCell& cell) {
     const double rate = cell.ladder == "slow" ? 4e-5 : 1e-5;
-    return {.seconds = 1 + rate * cell.load * cell.pixels / hd, .hostBytes = 1e8 + 100 * cell.load,
+    return {.seconds = 1 + rate * cell.load * cell.pixels / hd,
+            .hostBytes = 1e8 + 100 * cell.load,
             .deviceBytes = 50 * cell.load};
 }
 
@@ -127,8 +128,8 @@ TEST(LoadLadder, ASpentTotalLeavesOutTheRestWithItsReason) {
     ladder.done(*first, linear(cells[first->cell]));
     for (std::size_t i = 1; i < cells.size(); ++i) {
         const auto step = ladder.next(4);
-        EXPECT_THAT(step->skip, testing::AnyOf("the limit of 4.0 s for all runs is reached",
-                                               "the lower load 1000 was left out"));
+        EXPECT_THAT(step->skip,
+                    testing::AnyOf("the limit of 4.0 s for all runs is reached", "the lower load 1000 was left out"));
     }
     EXPECT_FALSE(ladder.next(4));
     EXPECT_EQ(ladder.repetitionsLeftOut(), 2u) << "of the one that ran";
@@ -191,8 +192,8 @@ TEST(LoadLadder, ARunWhosePicturesTakeTooLongToCompareIsMeasuredWithoutThem) {
     EXPECT_EQ(cut.whyNot(1), "comparing its pictures would take about 50 s, allowed: 20 s");
     EXPECT_EQ(cut.whyNot(2), "") << "a higher load without metrics";
     EXPECT_EQ(cut.whyNot(4), "") << "a larger size without metrics";
-    const auto skipped = std::ranges::find_if(
-        cut.steps, [](const LadderStep& step) { return step.cell == 1 && step.repetition == 1; });
+    const auto skipped =
+        std::ranges::find_if(cut.steps, [](const LadderStep& step) { return step.cell == 1 && step.repetition == 1; });
     EXPECT_EQ(std::next(skipped)->cell, 1u);
     EXPECT_EQ(std::next(skipped)->repetition, 2);
     EXPECT_EQ(cut.steps.size(), 2 * cells.size()) << "each run once";

@@ -35,7 +35,7 @@ struct PlanFile {
 
 LadderLimits readLimits(files::TomlReader table) {
     LadderLimits limits;
-    limits.totalSeconds = table.number("total_limit_s", 1, longest);
+    limits.totalSeconds = table.number("total_limit_s", 0.01, longest);
     limits.runSeconds = table.number("run_limit_s", 0.1, longest);
     limits.judgingSeconds = table.number("judging_limit_s", 0.1, longest);
     table.finish();
