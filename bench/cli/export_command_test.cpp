@@ -222,7 +222,7 @@ TEST_F(ExportCommand, WrongUseIsOneLineAndExitCodeThreeAndLeavesNothing) {
         {"--frames 0 --resolution fine", "'fine'"},
         {"--frames 0 --region 0,0,0,1,1", "5 numbers"},
         {"--frames 0 --region 0,0,0,1,-1,1", "y1"},
-        {"--frames 0 --region 0,0,0,1,1,inf", "beyond"},
+        {"--frames 0 --region 0,0,0,1,1,inf", "outside"},
         {"--frames 0 --vdb-precision double", "half|float"},
         {"--frames 0 -P speed=10,20", "2 combinations"},
         {"--frames 0 -P speeed=10", "'speed'"},

@@ -66,7 +66,7 @@ TEST_F(CompareFolders, ExitCodesTellAllIsWellARegressionAndWhatCannotBeCompared)
     EXPECT_THAT(slower.err, HasSubstr("regression: frame_ms_median: haze particles=900 takes 1.1 ["));
     EXPECT_EQ(compare("slower", "").code, 0);
     EXPECT_EQ(compare("slower", "--fail-on-regression 12").code, 0);
-    for (const auto& [folder, word] : {std::pair("elsewhere", "cpu: 'Cpu 1' in A and 'Cpu 2' in B (2 cells)"),
+    for (const auto& [folder, word] : {std::pair("elsewhere", "cpu: 'Cpu 1' in A and 'Cpu 2' in B (2 configurations)"),
                                        {"other", "state_hash '0123456789abcdef' in A and 'fedcba9876543210' in B"},
                                        {"debug", "build_type: 'Release' in A and 'Debug' in B"},
                                        {"shorter", "differ in frames"}}) {
@@ -142,7 +142,7 @@ TEST_F(CompareFolders, AnotherQuotaIsANote) {
     write("less", 1.001, [](bench::RunRecord& record) { record.provenance.machine.quotaCores = 0.5; });
     const Called called = compare("less");
     EXPECT_EQ(called.code, 0) << called.err;
-    EXPECT_THAT(called.err, HasSubstr("note: quota_cores: '0' in A and '0.5' in B (2 cells)"));
+    EXPECT_THAT(called.err, HasSubstr("note: quota_cores: '0' in A and '0.5' in B (2 configurations)"));
 }
 
 TEST_F(CompareFolders, InvalidRunsAreSaidAndPassNoGate) {

@@ -48,7 +48,7 @@ void checkDevice(bench::Provenance& provenance, Checks& checks) {
     checks.push_back(bench::gpuClockCheck(readings));
 }
 
-void print(const bench::Provenance& provenance, const Checks& checks) {
+void printChecks(const bench::Provenance& provenance, const Checks& checks) {
     std::vector<std::vector<std::string>> rows{{"check", "outcome", "measured", "expected", "note"}};
     for (const bench::Check& check : checks)
         rows.push_back({check.name, std::string(bench::outcomes.wordOf(check.outcome)), check.measured, check.expected,
@@ -81,7 +81,7 @@ int selfcheck(const std::string& out, bool json) {
 
     const std::string document = bench::selfcheckJson(provenance, checks);
     if (!out.empty()) bench::writeWhole(fs::path(out) / "selfcheck.json", document);
-    json ? static_cast<void>(std::cout << document) : print(provenance, checks);
+    json ? static_cast<void>(std::cout << document) : printChecks(provenance, checks);
     const auto failed = std::ranges::find(checks, bench::Outcome::failed, &bench::Check::outcome);
     if (failed == checks.end()) return exitOk;
     std::cerr << "dustbench: selfcheck: " << failed->name << ": got " << failed->measured << ", expected "

@@ -21,3 +21,16 @@ int nvmlDeviceGetTotalEnergyConsumption(void* device, unsigned long long* millij
     *millijoules = *(unsigned long long*)device += 1500;
     return 0;
 }
+
+static unsigned int clocks[2] = {1800, 900};
+
+int nvmlDeviceGetClockInfo(void* device, int type, unsigned int* megahertz) {
+    unsigned int* clock = &clocks[device == &used[1]];
+    *megahertz = *clock;
+    *clock -= 100;
+    return type == 0 ? 0 : 2;
+}
+int nvmlDeviceGetCurrentClocksThrottleReasons(void* device, unsigned long long* reasons) {
+    *reasons = device == &used[1] ? 0x24 : 0x1;
+    return 0;
+}

@@ -59,8 +59,8 @@ TEST(ReportPage, LeavesOutRunsWhoseFilesWereAlteredAndSaysWhichCannotTell) {
     EXPECT_EQ(data.runs.size(), 2u);
     const std::string said = problemsOf(data);
     for (const char* part :
-         {"runs/faster': frames.csv is not what the run wrote", "runs/shorter': frames.csv has 21 bytes, expected 27",
-          "1 of 2 runs are of an older build"})
+         {"runs/faster': frames.csv was altered", "runs/shorter': frames.csv has 21 bytes, expected 27",
+          "1 of 2 runs are from an older build"})
         EXPECT_NE(said.find(part), std::string::npos) << part << " in\n" << said;
 }
 

@@ -133,7 +133,7 @@ TEST(SolidTable, SaysInOneLineWhatIsWrong) {
     EXPECT_THAT(one.refusal("targets = [\"none.obj\"]\n" + key), HasSubstr("none.obj"));
     EXPECT_THAT(one.refusal("targets = [\"fewer.obj\"]\n" + key),
                 HasSubstr("fewer.obj: got 3 points and 1 faces, expected 4 and 4"));
-    EXPECT_THAT(one.refusal("targets = [\"other.obj\"]\n" + key), HasSubstr("face 4 has other corners"));
+    EXPECT_THAT(one.refusal("targets = [\"other.obj\"]\n" + key), HasSubstr("face 4 has different corners"));
 }
 
 }  // namespace

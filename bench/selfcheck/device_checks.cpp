@@ -1,6 +1,5 @@
 #include "bench/selfcheck/device_checks.h"
 
-#include <epoxy/gl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -138,7 +137,7 @@ Check barriers(gpu::Device& device) {
 }
 
 Check wideIntegers(gpu::Device& device) {
-    if (!epoxy_has_gl_extension("GL_ARB_gpu_shader_int64"))
+    if (!device.offers("GL_ARB_gpu_shader_int64"))
         return {"64-bit integers", Outcome::attention, "not offered", "GL_ARB_gpu_shader_int64",
                 "what needs them is skipped"};
     constexpr std::uint64_t a = 0x9e3779b97f4a7c15, b = 0xbf58476d1ce4e5b9;

@@ -192,7 +192,7 @@ TEST_F(ExactInViewer, GivesNoNumbersToAMethodWithASimulationOfItsOwn) {
     viewer.press(Key::e, false);
     viewer.advance();
     ASSERT_TRUE(viewer.session().isCurrent(Half::b));
-    EXPECT_THAT(viewer.session().exact().whyNotJudged(), HasSubstr("simulation of its own"));
+    EXPECT_THAT(viewer.session().exact().whyNotJudged(), HasSubstr("runs its own simulation"));
     EXPECT_FALSE(viewer.session().exact().judged().metrics.psnrDb);
     viewer.split.shown = Shown::flip;  // the pictures can still be compared
     viewer.advance();

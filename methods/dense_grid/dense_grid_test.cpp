@@ -139,7 +139,7 @@ TEST(DenseGrid, RefusesMoreBytesThanAllowed) {
     EXPECT_NE(create("4", "accumulate", "49152"), nullptr);
     EXPECT_EQ(refused("6", "max", "1048575"),
               "parameter depth: got 6, a grid of 64³ cells of 4 bytes = 1048576 bytes; allowed: 1048575 bytes "
-              "(limit_bytes), depth 5 or less");
+              "(limit_bytes), which is depth 5 or less");
     EXPECT_THAT(refused("6", "accumulate", "1048576"), testing::HasSubstr("64³ cells of 12 bytes = 3145728 bytes"));
     EXPECT_THAT(refused("12", "max", "2147483648"), testing::HasSubstr("274877906944 bytes; allowed: 2147483648"));
 }

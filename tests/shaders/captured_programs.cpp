@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "bench/scene/world.h"
+#include "bench/selfcheck/device_checks.h"
 #include "bench/view/split_view.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
@@ -26,7 +27,6 @@
 #include "methods/kit/gpu/device.h"
 #include "methods/kit/gpu/layer.h"
 #include "methods/kit/gpu/program.h"
-#include "methods/kit/gpu/timer_query.h"
 #include "methods/kit/particles/particle_store.h"
 #include "methods/kit/raycast/grid_raycast.h"
 
@@ -293,7 +293,8 @@ void runExperiments(gpu::Device& device) {
 }
 
 void drawEverything(gpu::Device& device) {
-    (void)gpu::timerQueriesAreTrue(device);
+    (void)bench::correctnessChecks(device);
+    (void)bench::measureRates(device, [] {});
     const bench::SplitView twoPictures(device);
     drawGrids(device);
     runExperiments(device);

@@ -1,4 +1,4 @@
-// Fraction of the sun's light that reaches a point. VEHICLE and SOLIDS are defined if the scene has such casters.
+// Fraction of the sun's light that reaches a point. VEHICLE and SOLIDS mark the casters of the scene.
 #ifdef VEHICLE
 layout(binding = 2) uniform sampler2DShadow vehicleShadow;
 #endif

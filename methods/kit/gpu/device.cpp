@@ -131,6 +131,10 @@ std::size_t Device::maximumStorageBytes() const {
     return static_cast<std::size_t>(bytes);
 }
 
+bool Device::offers(const std::string& extension) const {
+    return epoxy_has_gl_extension(extension.c_str());
+}
+
 bool Device::isSoftware() const {
     return isSoftwareRenderer(info_.renderer);
 }

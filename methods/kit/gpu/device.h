@@ -49,6 +49,8 @@ class DUSTBENCH_API Device {
     [[nodiscard]] std::optional<std::int64_t> driverFreeBytes() const;
     /// Maximum size of a shader storage buffer.
     [[nodiscard]] std::size_t maximumStorageBytes() const;
+    /// Whether OpenGL has this extension: `GL_ARB_gpu_shader_int64`.
+    [[nodiscard]] bool offers(const std::string& extension) const;
     /// True if OpenGL runs on the CPU.
     [[nodiscard]] bool isSoftware() const;
     /// Blocks until all queued work is done.

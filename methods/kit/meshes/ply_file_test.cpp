@@ -128,7 +128,7 @@ TEST(PlyFile, RefusesHeadersThatAnnounceNoMesh) {
                 HasSubstr("'vertex_indices' is not a list of integers"));
     EXPECT_THAT(plyRefusal(start + vertex + "element face 1\nproperty list uchar float vertex_indices\n" + end +
                            points + "3 0 1 2\n"),
-                HasSubstr("no list of integers"));
+                HasSubstr("is not a list of integers"));
     EXPECT_THAT(plyRefusal(start + vertex + "element face 1\nproperty uchar flags\n" + end + points + "3\n"),
                 HasSubstr("have no list vertex_indices"));
     EXPECT_THAT(

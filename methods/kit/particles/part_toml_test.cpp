@@ -117,7 +117,7 @@ TEST(PartToml, ErrorsNameFileAndLineAndTheNearestName) {
     EXPECT_THAT(errorOf(with(everyForce, "force = [", "forces = [")), HasSubstr("did you mean 'force'"));
     EXPECT_THAT(errorOf(with(everyForce, "size = {", "# ")), AllOf(HasSubstr("test.toml:"), HasSubstr("'size'")));
     EXPECT_THAT(errorOf(with(everyForce, "life = [ { part = \"lifetime\", ", "life = [] # ")),
-                HasSubstr("gives lifetimes"));
+                HasSubstr("sets lifetimes"));
     EXPECT_THAT(errorOf("size = 3"), HasSubstr("test.toml:1: "));
 }
 

@@ -206,8 +206,8 @@ TEST_F(ImageFile, BombsAreRefusedByTheirHeaders) {
     };
     const long before = peakKilobytes();
     for (const int colours : {0, 2, 6})
-        EXPECT_THAT(refusal(pngHead(30'000, 30'000, 8, colours)), testing::HasSubstr("allowed: 16384 a side"));
-    EXPECT_THAT(refusal(pngHead(30'000, 30'000, 16, 6)), testing::HasSubstr("allowed: 16384 a side"));
+        EXPECT_THAT(refusal(pngHead(30'000, 30'000, 8, colours)), testing::HasSubstr("allowed: 16384 per side"));
+    EXPECT_THAT(refusal(pngHead(30'000, 30'000, 16, 6)), testing::HasSubstr("allowed: 16384 per side"));
     EXPECT_THAT(refusal(pngHead(16'384, 16'384, 8, 2)), testing::HasSubstr("allowed: 1 GB decoded"));
     EXPECT_THAT(refusal(pngHead(8'000, 8'000, 8, 2)), testing::HasSubstr("states too many pixels"));
     testing::internal::CaptureStderr();
@@ -221,7 +221,7 @@ TEST_F(ImageFile, LimitsHoldForOtherFormats) {
         std::ofstream(folder_ / name, std::ios::binary) << head;
         return inputError([&] { static_cast<void>(readImage(folder_ / name)); });
     };
-    EXPECT_THAT(refusal("a.pgm", "P5\n20000 2\n255\n"), testing::HasSubstr("allowed: 16384 a side"));
+    EXPECT_THAT(refusal("a.pgm", "P5\n20000 2\n255\n"), testing::HasSubstr("allowed: 16384 per side"));
     EXPECT_THAT(refusal("a.ppm", "P6\n16000 16000\n255\n"), testing::HasSubstr("allowed: 1 GB decoded"));
     EXPECT_THAT(inputError([&] { static_cast<void>(readImage("/dev/zero")); }), testing::HasSubstr("is a device"));
     EXPECT_EQ(tooLarge(8192, 8192, 4), "");

@@ -105,11 +105,11 @@ TEST(VectorSeries, RefusesGridsThatDifferAndTimesThatDoNotGrow) {
         return inputError([&] { const VectorSeries series(grids, gridNames); });
     };
     EXPECT_NE(refused({2, 2, 3}, {0, 0, 0}, 1, 2).find("b.vti: is on a different grid"), std::string::npos);
-    EXPECT_NE(refused({2, 2, 2}, {1, 0, 0}, 1, 2).find("another grid"), std::string::npos);
-    EXPECT_NE(refused({2, 2, 2}, {0, 0, 0}, 1.1, 2).find("another grid"), std::string::npos);
-    EXPECT_NE(refused({2, 2, 2}, {0.4, 0, 0}, 1, 2, true).find("another grid"), std::string::npos);
-    EXPECT_NE(refused({2, 2, 2}, {0, 0, 0}, 1, 1).find("after 1 s"), std::string::npos);
-    EXPECT_NE(refused({2, 2, 2}, {0, 0, 0}, 1, 0.5).find("after 1 s"), std::string::npos);
+    EXPECT_NE(refused({2, 2, 2}, {1, 0, 0}, 1, 2).find("is on a different grid"), std::string::npos);
+    EXPECT_NE(refused({2, 2, 2}, {0, 0, 0}, 1.1, 2).find("is on a different grid"), std::string::npos);
+    EXPECT_NE(refused({2, 2, 2}, {0.4, 0, 0}, 1, 2, true).find("is on a different grid"), std::string::npos);
+    EXPECT_NE(refused({2, 2, 2}, {0, 0, 0}, 1, 1).find("expected more than 1 s"), std::string::npos);
+    EXPECT_NE(refused({2, 2, 2}, {0, 0, 0}, 1, 0.5).find("expected more than 1 s"), std::string::npos);
     EXPECT_NE(refused({2, 2, 2}, {0, 0, 0}, 1, std::nullopt).find("no time"), std::string::npos);
     EXPECT_NE(inputError([] { const VectorSeries series(std::vector<VectorGrid>{}, gridNames); }), "");
 }

@@ -289,9 +289,9 @@ TEST(VtiFile, RefusesArraysOfNothingAndOfUnknownTypes) {
         EXPECT_THAT(faultOf(with("type=\"Float32\"", type)), HasSubstr("an array has the type '")) << type;
     EXPECT_THAT(faultOf(with("ascii", "ascii2")), HasSubstr("its format is 'ascii2'"));
     for (const char* word : {"nope", "3x", "1e39", "1e999", "-", "3,"})
-        EXPECT_THAT(faultOf(with("1 2 3", std::string("1 2 ") + word)), HasSubstr("Float32 has")) << word;
+        EXPECT_THAT(faultOf(with("1 2 3", std::string("1 2 ") + word)), HasSubstr("Float32 contains")) << word;
     EXPECT_EQ(numbersIn(with("1 2 3", "1 2 1e-999"))[2], 0);
-    EXPECT_THAT(faultOf(with("Float32", "UInt8", with("1 2 3", "1 2 3.5"))), HasSubstr("UInt8 has '3.5'"));
+    EXPECT_THAT(faultOf(with("Float32", "UInt8", with("1 2 3", "1 2 3.5"))), HasSubstr("UInt8 contains '3.5'"));
 }
 
 TEST(VtiFile, RefusesExtentsThatDoNotFit) {
@@ -324,7 +324,7 @@ std::string element(const std::string& name) {
 TEST(VtiFile, RefusesOtherXml) {
     for (const char* text : {"", "no volume", "<", "<a", "<a b", "<a b=", "<a b='c", "<!--", "</VTKFile>"})
         EXPECT_THAT(faultOf(text), HasSubstr("not a complete VTK image data file")) << text;
-    EXPECT_THAT(faultOf(with("type=\"ImageData\"", "type=\"PolyData\"")), HasSubstr("no image data"));
+    EXPECT_THAT(faultOf(with("type=\"ImageData\"", "type=\"PolyData\"")), HasSubstr("not image data"));
     EXPECT_THAT(faultOf(with("<!-- two cells -->", "<!DOCTYPE a [<!ENTITY a \"b\">]>")), HasSubstr("document type"));
     EXPECT_THAT(faultOf(with("version=\"1.0\" byte", "version=\"3.0\" byte")), HasSubstr("its version is '3.0'"));
     EXPECT_THAT(faultOf(with("LittleEndian", "MiddleEndian")), HasSubstr("its byte_order is 'MiddleEndian'"));

@@ -191,7 +191,7 @@ TEST(SparsePicture, RefusesWhatItDoesNotShow) {
     EXPECT_EQ(
         inputError([] { requireTreesFit(128'100'000, 128'000'000); }),
         "storage=sparse: the volume takes 128.1 MB on the GPU, allowed: 128.0 MB, the largest storage buffer of this "
-        "OpenGL; backend=cpu has no such limit");
+        "OpenGL driver; backend=cpu has no such limit");
 }
 
 TEST(SparsePicture, RefusesLightInTooManyBlocks) {

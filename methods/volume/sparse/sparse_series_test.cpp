@@ -266,7 +266,7 @@ TEST(SparseSeries, RefusesBoxesBeyondItsOwnLimits) {
         return inputError([&] { SparseSeries(setup, ledger); });
     };
     EXPECT_THAT(moment({0.4, 0, 0}), HasSubstr("s1.vdb: is on a different grid from s0.vdb"));
-    EXPECT_THAT(moment({9e6, 0, 0}), HasSubstr("s1.vdb: it lies 9e+06 cells from the first of its series"));
+    EXPECT_THAT(moment({9e6, 0, 0}), HasSubstr("s1.vdb: it is 9e+06 cells away from the first of its series"));
     EXPECT_THAT(moment({2000, 2000, 2000}), HasSubstr("it has more than 2000000000 cells (limit of volumes)"));
 }
 

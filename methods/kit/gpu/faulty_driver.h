@@ -1,0 +1,88 @@
+// Faults between the program and the driver, for tests: they replace the pointers through which libepoxy calls OpenGL,
+// for as long as the object lives.
+//
+// Threads: the device's. One fault of a kind at a time.
+#pragma once
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include <chrono>
+#include <utility>
+
+namespace dustbench::gpu {
+
+/// An OpenGL function replaced by `fault`.
+template <typename Function>
+class ReplacedFunction {
+ public:
+    ReplacedFunction(Function& pointer, Function fault) : pointer_(pointer), original_(std::exchange(pointer, fault)) {}
+    ~ReplacedFunction() { pointer_ = original_; }
+    ReplacedFunction(const ReplacedFunction&) = delete;
+    ReplacedFunction& operator=(const ReplacedFunction&) = delete;
+
+ private:
+    Function& pointer_;
+    Function original_;
+};
+
+/// The driver's own function, whatever the pointer holds.
+template <typename Function>
+Function ofDriver(const char* name) {
+    return reinterpret_cast<Function>(eglGetProcAddress(name));
+}
+
+/// Textures of 32-bit floats have 16 bits.
+class FewerBits {
+    static void store(GLuint texture, GLsizei levels, GLenum format, GLsizei width, GLsizei height) {
+        ofDriver<PFNGLTEXTURESTORAGE2DPROC>("glTextureStorage2D")(
+            texture, levels, format == GL_RGBA32F ? GL_RGBA16F : format, width, height);
+    }
+    ReplacedFunction<PFNGLTEXTURESTORAGE2DPROC> storage_{epoxy_glTextureStorage2D, store};
+};
+
+/// Instances are drawn last to first.
+class ReversedInstances {
+    static void draw(GLenum mode, GLint first, GLsizei count, GLsizei instances) {
+        for (GLsizei i = instances; i-- > 0;)
+            glDrawArraysInstancedBaseInstance(mode, first, count, 1, static_cast<GLuint>(i));
+    }
+    ReplacedFunction<PFNGLDRAWARRAYSINSTANCEDPROC> draw_{epoxy_glDrawArraysInstanced, draw};
+};
+
+/// The writes of every fifth dispatch are lost.
+class LostWrites {
+    static inline int dispatches_ = 0;
+    static void dispatch(GLuint x, GLuint y, GLuint z) {
+        if (++dispatches_ % 5 != 0) ofDriver<PFNGLDISPATCHCOMPUTEPROC>("glDispatchCompute")(x, y, z);
+    }
+    ReplacedFunction<PFNGLDISPATCHCOMPUTEPROC> dispatch_{epoxy_glDispatchCompute, dispatch};
+};
+
+/// Timer queries report the elapsed time, waited for, times a factor.
+class ScaledTimer {
+ public:
+    explicit ScaledTimer(double factor) { factor_ = factor; }
+
+ private:
+    using Clock = std::chrono::steady_clock;
+    static inline Clock::time_point begin_{};
+    static inline double nanoseconds_ = 0, factor_ = 1;
+    static void begin(GLenum, GLuint) {
+        glFinish();
+        begin_ = Clock::now();
+    }
+    static void end(GLenum) {
+        glFinish();
+        nanoseconds_ = std::chrono::duration<double, std::nano>(Clock::now() - begin_).count();
+    }
+    static void ready(GLuint, GLenum, GLint* value) { *value = 1; }
+    static void answer(GLuint, GLenum, GLuint64* value) { *value = static_cast<GLuint64>(nanoseconds_ * factor_); }
+
+    ReplacedFunction<PFNGLBEGINQUERYPROC> beginQuery_{epoxy_glBeginQuery, begin};
+    ReplacedFunction<PFNGLENDQUERYPROC> endQuery_{epoxy_glEndQuery, end};
+    ReplacedFunction<PFNGLGETQUERYOBJECTIVPROC> ready_{epoxy_glGetQueryObjectiv, ready};
+    ReplacedFunction<PFNGLGETQUERYOBJECTUI64VPROC> answer_{epoxy_glGetQueryObjectui64v, answer};
+};
+
+}  // namespace dustbench::gpu
