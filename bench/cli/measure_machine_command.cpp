@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -169,8 +170,7 @@ class MachineMeasurement {
 
     bool measure(const bench::PlannedRun& run, const bench::LadderStep& step) {
         const bench::LadderCell& cell = cells_[step.cell].ladder;
-        position_ = step.repetition == repetition_ ? position_ + 1 : 1;
-        repetition_ = step.repetition;
+        position_ = ++positions_[step.repetition];
         const Clock::time_point start = Clock::now();
         bool isNew = false;
         if (!execute(run, cell, false, isNew)) return false;
@@ -213,7 +213,7 @@ class MachineMeasurement {
     bench::ExecutionOptions execution_;
     PlacedProgress progress_;
     std::size_t position_ = 0, done_ = 0, leftOut_ = 0, failed_ = 0, slowed_ = 0;
-    int repetition_ = 1;
+    std::map<int, std::size_t> positions_;  ///< by repetition
     std::string outdated_;
 };
 

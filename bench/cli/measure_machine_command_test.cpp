@@ -112,6 +112,27 @@ TEST_F(MeasureMachine, AFailedSelfCheckEndsWithOneAfterTheRestWasMeasuredAndMark
     EXPECT_EQ(call("verify " + at("out.tar") + " --runs 0" + data).code, 0);
 }
 
+TEST_F(MeasureMachine, MeasuresAgainOnceWhereTheClockFellAndThenMarksTheRun) {
+    const std::string data = dataWith(true);
+    usePlan("total_limit_s = 100\nrun_limit_s = 60\njudging_limit_s = 60");
+    const Called called = callAs("env", fmt::format("LD_LIBRARY_PATH='{}' '{}' measure-machine --out {}{}",
+                                                    FALLING_CLOCK, DUSTBENCH_PROGRAM, out(), data));
+    ASSERT_EQ(called.code, 0) << called.err;
+    if (called.err.find("llvmpipe") == std::string::npos) GTEST_SKIP() << "the clock made up is that of llvmpipe";
+    for (int run = 1; run <= 4; ++run) {
+        const std::string line = fmt::format("run {} of 4: billboard", run);
+        const std::size_t first = called.err.find(line), second = called.err.find(line, first + 1);
+        EXPECT_NE(second, std::string::npos) << line;
+        EXPECT_EQ(called.err.find(line, second + 1), std::string::npos) << line;
+    }
+    EXPECT_THAT(called.err, HasSubstr("4 runs have a clock that fell, also when measured again"));
+    const files::CsvTable table = summary();
+    for (std::size_t row = 0; row < table.rows(); ++row)
+        EXPECT_LT(table.number(row, "gpu_mhz_min"), table.number(row, "gpu_mhz_max"));
+    for (const char* file : {"index.html", "tables/runs.csv"})
+        EXPECT_THAT(contentOf(folder_ / "out" / file), HasSubstr("clock fell: the GPU's from")) << file;
+}
+
 TEST_F(MeasureMachine, ResumesWhereItWasInterrupted) {
     const std::string arguments = "measure-machine --quick --out " + out() + dataWith(true);
     const Called stopped =
