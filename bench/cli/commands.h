@@ -24,6 +24,7 @@ namespace dustbench::cli {
 [[nodiscard]] Command bundleCommand();
 [[nodiscard]] Command verifyCommand();
 [[nodiscard]] Command selfcheckCommand();
+[[nodiscard]] Command measureMachineCommand();
 /// `completion SHELL` and `manual`, which describe all `commands` and themselves. Add them last.
 [[nodiscard]] std::vector<Command> manualCommands(const std::vector<Command>& commands, const CommonOptions& common);
 /// The tools that method folders provide, such as `shape`.

@@ -90,10 +90,11 @@ int run(const std::vector<std::string>& argv) {
         bench::loadMethodLibraries();
         return argv.front() == measureRunName ? measureRunCommand(argv) : forecastRunCommand(argv);
     }
-    std::vector<Command> commands{listCommand(),      envCommand(),    runCommand(),    compareCommand(),
-                                  recommendCommand(), suiteCommand(),  mergeCommand(),  reproduceCommand(),
-                                  reportCommand(),    exportCommand(), diffCommand(),   viewCommand(),
-                                  newMethodCommand(), bundleCommand(), verifyCommand(), selfcheckCommand()};
+    std::vector<Command> commands{listCommand(),          envCommand(),    runCommand(),    compareCommand(),
+                                  recommendCommand(),     suiteCommand(),  mergeCommand(),  reproduceCommand(),
+                                  reportCommand(),        exportCommand(), diffCommand(),   viewCommand(),
+                                  newMethodCommand(),     bundleCommand(), verifyCommand(), selfcheckCommand(),
+                                  measureMachineCommand()};
     std::ranges::move(toolCommands(), std::back_inserter(commands));
     const CommonOptions common = commonOptions();
     std::ranges::move(manualCommands(commands, common), std::back_inserter(commands));

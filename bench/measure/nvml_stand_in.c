@@ -1,6 +1,10 @@
 /* Stand-in for NVML, for tests: two GPUs with energy counters that grow by 1500 mJ and clocks that fall by 100 MHz at each call. */
 #include <string.h>
 
+#ifndef FIRST_GPU
+#define FIRST_GPU "Stand-in One"
+#endif
+
 static unsigned long long used[2] = {1000, 5000};
 
 int nvmlInit_v2(void) { return 0; }
@@ -14,7 +18,7 @@ int nvmlDeviceGetHandleByIndex_v2(unsigned int index, void** device) {
     return 0;
 }
 int nvmlDeviceGetName(void* device, char* name, unsigned int length) {
-    strncpy(name, device == &used[0] ? "Stand-in One" : "Stand-in Two", length);
+    strncpy(name, device == &used[0] ? FIRST_GPU : "Stand-in Two", length);
     return 0;
 }
 int nvmlDeviceGetTotalEnergyConsumption(void* device, unsigned long long* millijoules) {

@@ -12,6 +12,7 @@
 #include "bench/report/picture_sets.h"
 #include "bench/report/published_points.h"
 #include "bench/report/run_groups.h"
+#include "bench/report/selfcheck_findings.h"
 #include "bench/results/measured_on.h"
 #include "bench/results/method_time.h"
 #include "bench/results/results_folder.h"
@@ -32,8 +33,9 @@ void readRuns(const fs::path& folder, ReportData& data) {
     if (data.tablesOnly) {
         data.runs = readSummaryRuns(folder, data.problems);
         adoptOlderRows(data.runs, data.problems);
-        data.problems.push_back(
-            "the folder contains only tables: frame times, pictures and warnings of its runs are not shown");
+        const bool hasWarnings = fs::exists(folder / "runs.csv", error);
+        data.problems.push_back(fmt::format("the folder contains only tables: frame times{} of its runs are not shown",
+                                            hasWarnings ? " and pictures" : ", pictures and warnings"));
         return;
     }
     fs::directory_iterator entry(folder / "runs", error);
@@ -70,10 +72,20 @@ void noteMixed(ReportData& data, const std::string& problem) {
     data.mixedMachines.push_back(problem);
 }
 
+/// Runs that a suite leaves out, or that ended early, never had a graphics device.
+bool hadDevice(const StoredRun& run) {
+    return run.status == RunStatus::done || !provenanceOf(run, "gl_renderer").empty();
+}
+
 MachineOfRun findMachines(ReportData& data) {
     MachineOfRun machineOf;
     std::vector<std::vector<std::string>> keys;
+    const bool isAnyKnown = std::ranges::any_of(data.runs, [](const auto& entry) { return hadDevice(entry.second); });
     for (const auto& [id, run] : data.runs) {
+        if (isAnyKnown && !hadDevice(run)) {
+            machineOf[id] = 0;
+            continue;
+        }
         const std::vector<std::string> key = valuesOf(run, machineFields());
         auto found = std::ranges::find(keys, key);
         if (found == keys.end()) {
@@ -97,7 +109,9 @@ void noteBuilds(ReportData& data) {
         std::set<std::string> values;
         // Twelve characters identify a commit.
         for (const auto& [id, run] : data.runs)
-            values.insert(field == "git_commit" ? provenanceOf(run, field).substr(0, 12) : provenanceOf(run, field));
+            if (hadDevice(run))
+                values.insert(field == "git_commit" ? provenanceOf(run, field).substr(0, 12)
+                                                    : provenanceOf(run, field));
         if (values.size() > 1)
             noteMixed(data, fmt::format("the runs differ in {}: {}", field, fmt::join(values, ", ")));
     }
@@ -231,6 +245,7 @@ ReportData readReport(const fs::path& folder, std::int64_t maximumPictureBytes) 
     data.folder = (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();
     data.writtenUtc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
     data.tablesOnly = holdsTablesAlone(folder);
+    data.problems = selfcheckProblems(folder);
     readRuns(folder, data);
     const MachineOfRun machineOf = findMachines(data);
     noteBuilds(data);

@@ -22,7 +22,7 @@ std::uint64_t maximumBytesOf(const RunSpec& spec) {
         const auto every = static_cast<std::uint64_t>(spec.imagesEvery);
         bytes += (frames + every - 1) / every * picture;
     }
-    if (spec.judging) {
+    if (spec.judging && spec.judging->keepsPictures) {
         const auto moments = spec.judging->momentsOf(spec.frames).size();
         bytes += moments * 3 * picture;  // the method's, the reference and the difference
     }

@@ -43,8 +43,9 @@ const MethodInfo* findBaseline() {
 }
 
 std::optional<KeyFields> pairKey(const StoredRun& run) try {
-    static const std::set<std::string> leftOut{"method", "images",        "volumes", "formats",         "resolution",
-                                               "region", "vdb_precision", "metrics", "metric_reference"};
+    static const std::set<std::string> leftOut{"method",           "images",         "volumes",       "formats",
+                                               "resolution",       "region",         "vdb_precision", "metrics",
+                                               "metric_reference", "metric_pictures"};
     KeyFields fields = keyFields(run);
     std::erase_if(fields, [](const auto& field) {
         const auto& [name, value] = field;

@@ -136,7 +136,9 @@ std::optional<VolumeSettings> readVolumes(const Json& json) {
 
 Json judgingObject(const std::optional<JudgingPlan>& judging) {
     if (!judging) return nullptr;
-    return {{"frames", judging->moments ? Json(judging->moments->text()) : Json(nullptr)}, {"finer", judging->finer}};
+    return {{"frames", judging->moments ? Json(judging->moments->text()) : Json(nullptr)},
+            {"finer", judging->finer},
+            {"pictures", judging->keepsPictures}};
 }
 
 std::optional<JudgingPlan> readJudging(const Json& json) {
@@ -145,6 +147,7 @@ std::optional<JudgingPlan> readJudging(const Json& json) {
     if (!json.at("frames").is_null())
         judging.moments = parseFrameRange("metrics", json.at("frames").get<std::string>());
     for (const auto& [name, value] : json.at("finer").items()) judging.finer[name] = value.get<std::string>();
+    judging.keepsPictures = json.at("pictures").get<bool>();
     return judging;
 }
 

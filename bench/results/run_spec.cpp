@@ -122,6 +122,7 @@ std::string canonicalKey(const RunSpec& spec) {
     if (spec.judging)
         key += fmt::format("metrics={}\nmetric_reference={}\n",
                            spec.judging->moments ? spec.judging->moments->text() : "", spec.judging->referenceText());
+    if (spec.judging && !spec.judging->keepsPictures) key += "metric_pictures=0\n";
     return key;
 }
 

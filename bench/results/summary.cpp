@@ -96,7 +96,10 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "popping_small",
                                  "popping_large",
                                  "popping_small_part",
-                                 "popping_large_part"})
+                                 "popping_large_part",
+                                 "run_s",
+                                 "gpu_mhz_min",
+                                 "gpu_mhz_max"})
             list.emplace_back(name);
         for (const MethodFact& fact : methodFacts()) list.push_back(fact.info.name);
         return list;
@@ -117,7 +120,8 @@ const std::vector<std::string>& numericColumns() {
 
 bool dependsOnSpeed(std::string_view column) {
     return column.starts_with("fps_") || column.starts_with("frame_ms_") || column.ends_with("_ms_median") ||
-           column.starts_with("energy_") || column == "harness_us_median" || column == "start_s";
+           column.starts_with("energy_") || column.starts_with("gpu_mhz_") || column == "harness_us_median" ||
+           column == "start_s" || column == "run_s";
 }
 
 Columns identityColumns(const RunRecord& record, int threads) {
@@ -172,6 +176,10 @@ Columns measuredColumns(std::span<const FrameRecord> frames, const WholeRun& run
     };
     add("start_s", run.startSeconds);
     add("gpu_driver_bytes", run.driverBytes);
+    if (run.gpuMegahertz) {
+        columns.emplace_back("gpu_mhz_min", run.gpuMegahertz->first);
+        columns.emplace_back("gpu_mhz_max", run.gpuMegahertz->second);
+    }
     const auto perFrame = [&](std::optional<double> joules) {
         if (joules) *joules /= static_cast<double>(std::max<std::size_t>(frames.size(), 1));
         return joules;

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bench/measure/frame_record.h"
@@ -30,7 +31,9 @@ struct WholeRun {
     std::optional<std::int64_t> driverBytes;     ///< decrease of the GPU's free memory since the start of the run
     std::optional<double> startSeconds;          ///< from the process's start to its first picture
     std::optional<double> cpuJoules, gpuJoules;  ///< over the recorded frames
-    bool softwareRenderer = false;               ///< if true, the CPU's energy is the total energy
+    /// Lowest and highest clock of the GPU over the recorded frames.
+    std::optional<std::pair<std::int64_t, std::int64_t>> gpuMegahertz{};
+    bool softwareRenderer = false;  ///< if true, the CPU's energy is the total energy
 };
 
 /// The columns computed from the frames and the run as a whole.

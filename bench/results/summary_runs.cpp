@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/results/run_table.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
@@ -59,6 +60,7 @@ StoredRuns readSummaryRuns(const fs::path& folder, std::vector<std::string>& pro
             problems.push_back(fmt::format("left out: {}", fault.what()));
         }
     }
+    addRunTable(folder, runs, problems);
     return runs;
 }
 

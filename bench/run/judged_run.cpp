@@ -89,7 +89,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
     FrameRunner runner(spec, world, device, parameters.method, false);
     const std::vector<std::int64_t> moments = spec.judging->momentsOf(spec.frames);
     const std::vector<std::int64_t> stretch = JudgingPlan::stretchOf(spec.frames);
-    fs::create_directories(folder / "images");
+    if (spec.judging->keepsPictures) fs::create_directories(folder / "images");
 
     Judgement judgement;
     PoppingJudge poppingJudge;
@@ -115,7 +115,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
             JudgedMoment judged =
                 judgeMoment(drawn, exact, {runner.method().primitives(), volume, reference, view, spec.seed});
             judged.metrics.frame = frame;
-            savePictures(judged, folder / "images");
+            if (spec.judging->keepsPictures) savePictures(judged, folder / "images");
             metrics = judged.metrics;
         }
         metrics.frame = frame;

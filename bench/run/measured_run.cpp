@@ -6,6 +6,7 @@
 
 #include "bench/export/volume_exporter.h"
 #include "bench/measure/clock.h"
+#include "bench/measure/clock_watch.h"
 #include "bench/measure/energy_meter.h"
 #include "bench/measure/memory_probe.h"
 #include "bench/measure/statistics.h"
@@ -95,14 +96,15 @@ DustCount dustCount(const RunSpec& spec, const FrameRunner& runner) {
 
 /// Moments of a run that can have no metrics: their pictures are stored anyway, for inspection.
 std::vector<std::int64_t> momentsToShow(const RunSpec& spec, const Method& method) {
-    if (!spec.judging || whyNotJudged(*spec.judging, method).empty()) return {};
+    if (!spec.judging || !spec.judging->keepsPictures || whyNotJudged(*spec.judging, method).empty()) return {};
     return spec.judging->momentsOf(spec.frames);
 }
 
 /// Runs the untimed steps, the last of which is verified, then warm-up and recorded frames. Fills in the measurements
 /// of the run as a whole.
 void runFrames(const RunSpec& spec, const World& world, FrameRunner& runner, const fs::path& folder,
-               RunVolumes& volumes, EnergyMeter& energy, const RunProgress& progress, WholeRun& run) {
+               RunVolumes& volumes, EnergyMeter& energy, ClockWatch& clock, const RunProgress& progress,
+               WholeRun& run) {
     const std::int64_t preroll = stepsBeforeWarmup(world);
     for (std::int64_t step = 0; step < preroll; ++step) {
         progress("preroll", step, preroll);
@@ -120,6 +122,7 @@ void runFrames(const RunSpec& spec, const World& world, FrameRunner& runner, con
             progress("warmup", index + spec.warmup, spec.warmup);
         else
             progress("frames", index, spec.frames);
+        if (index >= 0) clock.betweenFrames();
         runner.frame(index);
         const bool savesPicture = (spec.imagesEvery > 0 && index >= 0 && index % spec.imagesEvery == 0) ||
                                   std::ranges::binary_search(shown, index);
@@ -131,10 +134,16 @@ void runFrames(const RunSpec& spec, const World& world, FrameRunner& runner, con
         energy.resume();
     }
     runner.drain();
+    clock.end();
     energy.pause();
     run.cpuJoules = energy.cpuJoules();
     run.gpuJoules = energy.gpuJoules();
     progress("frames", spec.frames, spec.frames);
+}
+
+void warnOfClock(const ClockWatch& clock, std::int64_t throttledBefore, std::vector<std::string>& warnings) {
+    for (std::string warning : {clock.warning(), throttlingWarning(throttledBefore, readMachine().throttled)})
+        if (!warning.empty()) warnings.push_back(std::move(warning));
 }
 
 void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& progress, RunRecord& record) {
@@ -167,7 +176,11 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     recordInputs(world, parameters.method, read, record.provenance);  // includes the method's files
     RunVolumes volumes(spec, folder, world, record.provenance.warnings);
     EnergyMeter energy(packageEnergy(), gpuEnergy(device.info().renderer));
-    runFrames(spec, world, runner, folder, volumes, energy, progress, whole);
+    ClockWatch clock(spec.timed ? gpuClock(device.info().renderer) : nullptr);
+    const std::int64_t throttledBefore = spec.timed ? readMachine().throttled : 0;
+    runFrames(spec, world, runner, folder, volumes, energy, clock, progress, whole);
+    if (spec.timed) warnOfClock(clock, throttledBefore, record.provenance.warnings);
+    if (const auto range = clock.range()) whole.gpuMegahertz = {range->lowest, range->highest};
     whole.peakResidentBytes = peakResidentBytes();
     if (const auto freeAtEnd = device.driverFreeBytes(); freeAtStart && freeAtEnd)
         whole.driverBytes = *freeAtStart - *freeAtEnd;
@@ -199,7 +212,7 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     record.validity = whyInvalid(info, facts, dustCount(spec, runner));
     if (!record.validity.empty())
         record.summary.emplace_back("invalid", fmt::format("{}", fmt::join(record.validity, "; ")));
-    if (spec.imagesEvery > 0 || spec.judging) {
+    if (spec.imagesEvery > 0 || (spec.judging && spec.judging->keepsPictures)) {
         const std::int64_t first = spec.imagesEvery > 0 ? 0 : spec.judging->momentsOf(spec.frames).front();
         record.summary.emplace_back("FILE_image", fmt::format("runs/{}/images/f{:06}.png", runId(spec), first));
     }
@@ -232,6 +245,8 @@ RunRecord measureRun(const RunSpec& spec, const fs::path& folder, std::vector<st
     record.drive = spec.drive;
     record.provenance = startProvenance(std::move(argv), spec.timed);
     withThreads(spec.threads, [&] { measure(spec, folder, progress, record); });
+    if (spec.timed && record.status == RunStatus::done)
+        record.summary.emplace_back("run_s", secondsSinceProcessStart());
     record.outputs = outputsIn(folder);
     return record;
 }

@@ -47,8 +47,16 @@ bool covers(const Exception& exception, const RunSpec& cell) {
 /// Returns the number of configurations that it excludes, completely or for some repetitions.
 std::size_t leaveOut(const Exception& exception, std::vector<PlannedRun>& cells) {
     const auto isCovered = [&](const PlannedRun& cell) { return covers(exception, cell.spec); };
-    if (exception.afterRepetition == 0 && exception.reason.empty()) return std::erase_if(cells, isCovered);
     std::size_t count = 0;
+    if (exception.metricsOnly) {
+        for (PlannedRun& cell : cells) {
+            if (!cell.spec.judging || !isCovered(cell)) continue;
+            cell.spec.judging.reset();
+            ++count;
+        }
+        return count;
+    }
+    if (exception.afterRepetition == 0 && exception.reason.empty()) return std::erase_if(cells, isCovered);
     for (PlannedRun& cell : cells) {
         if (!isCovered(cell)) continue;
         cell.repetitions = std::max(exception.afterRepetition, 1);
@@ -58,10 +66,11 @@ std::size_t leaveOut(const Exception& exception, std::vector<PlannedRun>& cells)
     return count;
 }
 
-/// Throws InputError if no run of the suite has the load of its chart.
+/// Throws InputError if no run of the suite has the load of its chart. Every run has the costs.
 void requireLoad(const Suite& suite, const std::string& where) {
     const std::string& name = suite.chart.against;
     std::set<std::string> known{"drive", "scene", "seed", "size"};
+    known.insert(chartCosts.begin(), chartCosts.end());
     for (const PlannedRun& cell : suite.cells)
         for (const auto& [parameter, value] : cell.spec.parameters) known.insert(parameter);
     if (name.empty() || known.contains(name)) return;

@@ -3,6 +3,7 @@
 // Suites are in `data/suites/` and `data/papers/<id>/suites/`; data/suites/README.md documents every key.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -31,9 +32,13 @@ inline constexpr Choices<Order> orders{{"interleaved", Order::interleaved}, {"ba
 /// What the chart of a suite shows first. Empty: the frame rate against the parameter with the most values.
 struct ChartView {
     std::string column;  ///< of summary.csv
-    /// A parameter that the suite sets, or `size`, `scene`, `drive`, `seed`; empty: the chart chooses.
+    /// A parameter that the suite sets, or `size`, `scene`, `drive`, `seed`; empty: the chart chooses. One of
+    /// chartCosts: the report shows this chart first.
     std::string against;
 };
+/// The costs that charts show the error of pictures against.
+inline constexpr std::array<std::string_view, 6> chartCosts{"frame_ms_median", "method_ms_median", "memory_bytes",
+                                                            "gpu_bytes",       "cpu_bytes",        "primitives_median"};
 
 struct Suite {
     std::string id;

@@ -146,7 +146,7 @@ void readVolumes(files::TomlReader& table, std::optional<VolumeSettings>& volume
     });
 }
 
-/// `metrics` requests metrics; `metric_frames` chooses the frames.
+/// `metrics` requests metrics; `metric_frames` and `metric_pictures` refine it.
 void readJudging(files::TomlReader& table, std::optional<JudgingPlan>& judging) {
     if (table.has("metrics")) {
         if (!table.boolean("metrics", false))
@@ -154,8 +154,11 @@ void readJudging(files::TomlReader& table, std::optional<JudgingPlan>& judging) 
         else if (!judging)
             judging.emplace();
     }
+    for (const char* key : {"metric_frames", "metric_pictures"})
+        if (table.has(key) && !judging)
+            throw InputError(fmt::format("{}key '{}': requires 'metrics = true'", table.where(key), key));
+    if (table.has("metric_pictures")) judging->keepsPictures = table.boolean("metric_pictures", true);
     if (!table.has("metric_frames")) return;
-    if (!judging) throw InputError(table.where("metric_frames") + "key 'metric_frames': requires 'metrics = true'");
     const std::string text = table.text("metric_frames", "");
     try {
         judging->moments = parseFrameRange("metric_frames", text);
@@ -222,6 +225,9 @@ void readExceptions(files::TomlReader& suite, SuiteDraft& draft) {
         if (!exception.reason.empty() && exception.afterRepetition > 0)
             throw InputError(table.where("reason") +
                              "key 'reason': not allowed with 'after_repetition', which excludes some repetitions only");
+        if (table.has("only")) exception.metricsOnly = table.choice("only", {"metrics"}) == "metrics";
+        if (exception.metricsOnly && (!exception.reason.empty() || exception.afterRepetition > 0))
+            throw InputError(table.where("only") + "key 'only': not allowed with 'reason' or 'after_repetition'");
         table.finish();
         draft.exceptions.push_back(std::move(exception));
     }

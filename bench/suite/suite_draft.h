@@ -17,9 +17,10 @@ namespace dustbench::bench {
 struct Exception {
     std::vector<std::string> methods, scenes, drives, sizes;
     ParameterLists parameters;
-    int afterRepetition = 0;  ///< repetitions up to this one are kept
-    std::string reason;       ///< recorded with the skipped runs; empty: they do not appear
-    std::string where;        ///< `file:line: `, for messages
+    int afterRepetition = 0;   ///< repetitions up to this one are kept
+    std::string reason;        ///< recorded with the skipped runs; empty: they do not appear
+    bool metricsOnly = false;  ///< the runs stay, but their pictures are not compared
+    std::string where;         ///< `file:line: `, for messages
 };
 
 struct SuiteDraft {

@@ -100,10 +100,12 @@ const chartData = (() => {
     const costsOf = (report, experiment) => known(report, experiment, 'cost');
     const metricsOf = (report, experiment) => (has(experiment, 'flip') ? known(report, experiment, 'metric') : []);
     /// The costs that image error can be plotted against. Runs without times have only memory and primitives.
-    const chargesOf = (report, experiment) => ['frame_ms_median', 'method_ms_median', 'memory_bytes', 'gpu_bytes', 'cpu_bytes', 'primitives_median']
-        .filter(name => costsOf(report, experiment).includes(name));
+    const charges = ['frame_ms_median', 'method_ms_median', 'memory_bytes', 'gpu_bytes', 'cpu_bytes', 'primitives_median'];
+    const chargesOf = (report, experiment) => charges.filter(name => costsOf(report, experiment).includes(name));
+    /// Whether the suite's `chart` is one of error against cost: the page then shows it first.
+    const opensOnCost = experiment => charges.includes((experiment.chart || {}).against);
     /// Everything that a chart can show: costs, metrics, and columns that methods declare.
     const quantitiesOf = (report, experiment) => distinct([...costsOf(report, experiment), ...known(report, experiment, 'metric'),
         ...(report.data.facts || []).map(fact => fact.name).filter(name => has(experiment, name))]);
-    return { columnOf, axisTitle, shown, isWhole, valueOf, sized, settingText, tied, variantOf, worldOf, inOrder, distinct, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf, chargesOf, factOf };
+    return { columnOf, axisTitle, shown, isWhole, valueOf, sized, settingText, tied, variantOf, worldOf, inOrder, distinct, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf, chargesOf, opensOnCost, factOf };
 })();

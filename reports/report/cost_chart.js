@@ -2,7 +2,7 @@
 // charts.js is.
 const costChart = (() => {
     const { themes, digits, withUnit } = chartStyle;
-    const { columnOf, axisTitle, shown, isWhole, valueOf, variantOf, worldOf, inOrder, distinct, loadsOf, quantitiesOf } = chartData;
+    const { columnOf, axisTitle, shown, isWhole, valueOf, variantOf, worldOf, inOrder, distinct, loadsOf, quantitiesOf, opensOnCost } = chartData;
     const { seriesStyles, methodColour, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, legendLines, domainOf, logTicks, setTicks, spans, intervalText, runsText, missing, rowsOf, widestText, tableOf } = chartParts;
     /// The choice of bars, one for each setting, in place of a load.
     const bars = 'bars';
@@ -47,7 +47,8 @@ const costChart = (() => {
         const { experiment } = chart;
         const opens = experiment.chart || {};
         const quantities = quantitiesOf(report, experiment);
-        const column = [chart.column, opens.column, 'fps_avg', quantities[0]].find(name => quantities.includes(name));
+        const opened = opensOnCost(experiment) ? opens.against : opens.column;
+        const column = [chart.column, opened, 'fps_avg', quantities[0]].find(name => quantities.includes(name));
         const loads = loadsOf(experiment).filter(load => load.numeric);
         const named = [chart.x, opens.against].find(name => name === bars || loads.some(load => load.name === name));
         const x = named || (loads.length ? loads[0].name : bars);

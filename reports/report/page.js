@@ -118,9 +118,25 @@
         put(here, fold);
     };
 
+    const qualityCharts = chartKit.list(report).filter(chart => chart.kind === 'quality' && isMain(experimentOf(chart.experiment.id)));
+    /// The chart that a suite wants to be seen first.
+    const opening = qualityCharts.find(chart => chartData.opensOnCost(chart.experiment));
+    const addQualityChart = (here, chart) => {
+        const card = element('article', { className: 'card' }, [element('h3', { textContent: titleOf(chart.experiment) })]);
+        put(here, card);
+        cards.add(card, chart, [
+            ['metric', 'Metric', columnOptions(chartKit.metricsOf(report, chart.experiment))],
+            ['against', 'against', columnOptions(qualityChart.chargesOf(report, chart.experiment))],
+            ['xLog', 'x axis', scales], ['yLog', 'y axis', scales],
+        ]);
+    };
+    const addOpening = () => opening && addQualityChart(section('opening'), opening);
+
     const addQuality = () => {
         const here = section('quality');
-        const own = chartKit.list(report).filter(chart => chart.kind === 'quality' && isMain(experimentOf(chart.experiment.id)));
+        const own = qualityCharts.filter(chart => chart !== opening);
+        if (opening) put(here, element('p', { className: 'muted' }, [element('a', { href: '#opening', textContent: titleOf(opening.experiment) }), ' is at the top of the page.']));
+        if (!own.length && opening) return;
         if (!own.length) {
             const judged = experiments.some(experiment => chartKit.metricsOf(report, experiment).length);
             put(here, paragraph(judged ? 'No chart: all settings whose pictures were compared have the same cost.'
@@ -128,15 +144,7 @@
             return;
         }
         put(here, element('p', { className: 'muted' }, ['Image error against cost. ', element('a', { href: '#metrics', textContent: 'Image metrics' }), ' defines every metric.']));
-        for (const chart of own) {
-            const card = element('article', { className: 'card' }, [element('h3', { textContent: titleOf(chart.experiment) })]);
-            put(here, card);
-            const costs = qualityChart.chargesOf(report, chart.experiment);
-            cards.add(card, chart, [
-                ['metric', 'Metric', columnOptions(chartKit.metricsOf(report, chart.experiment))], ['against', 'against', columnOptions(costs)],
-                ['xLog', 'x axis', scales], ['yLog', 'y axis', scales],
-            ]);
-        }
+        for (const chart of own) addQualityChart(here, chart);
     };
 
     const addPictures = () => {
@@ -244,6 +252,7 @@
         }));
     };
 
+    addOpening();
     pageHead.build(report, experiments, shortTitle);
     addMethods();
     addClaims();

@@ -19,10 +19,10 @@ const qualityChart = (() => {
     const build = (report, chart) => {
         const { experiment, theme } = chart;
         const metrics = metricsOf(report, experiment);
-        const opens = (experiment.chart || {}).column;
-        const metric = [chart.metric, opens, 'flip', metrics[0]].find(name => metrics.includes(name));
+        const opens = experiment.chart || {};
+        const metric = [chart.metric, opens.column, 'flip', metrics[0]].find(name => metrics.includes(name));
         const charges = chargesOf(report, experiment);
-        const against = charges.includes(chart.against) ? chart.against : charges[0];
+        const against = [chart.against, opens.against, charges[0]].find(name => charges.includes(name));
         const [info, cost] = [columnOf(report, metric), columnOf(report, against)];
         const cells = inOrder(experiment, experiment.cells)
             .filter(cell => valueOf(cell, metric) && valueOf(cell, against) && !chart.hidden.has(cell.method));

@@ -26,6 +26,7 @@ dustbench_place(README.md)
 dustbench_place(data/README.md) # read by tests/architecture, like the bibliography
 dustbench_place(data/drives bench/scene)
 dustbench_place(data/fluids grid_fluid)
+dustbench_place(data/machines bench/suite/machine bench/cli)
 dustbench_place(data/papers bench/suite bench/claims)
 dustbench_place(data/particles particles plugin_particles)
 dustbench_place(data/references.bib)

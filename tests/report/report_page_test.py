@@ -17,6 +17,7 @@ import page_case
 from report_charts_test import ReportCharts  # noqa: F401, found by unittest
 from report_machines_test import PageOfSeveralMachines, ReportOfSeveralMachines  # noqa: F401
 from report_names_test import ReportNames  # noqa: F401
+from report_opening_test import ReportOpening  # noqa: F401
 from report_published_test import ReportPublished  # noqa: F401
 from report_words_test import ReportWords  # noqa: F401
 

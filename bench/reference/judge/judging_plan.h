@@ -21,6 +21,8 @@ struct JudgingPlan {
     /// set to finer values, for methods with their own simulation, which have no ground truth.
     std::map<std::string, std::string, std::less<>> finer;
 
+    bool keepsPictures = true;  ///< writes the judged pictures, their references and differences
+
     /// `exact`, or `depth=10 levels=5`.
     [[nodiscard]] std::string referenceText() const;
     /// The moments of a run with this many frames, ascending.

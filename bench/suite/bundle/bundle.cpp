@@ -13,6 +13,7 @@
 #include "bench/measure/sha256.h"
 #include "bench/results/stored_folder.h"
 #include "bench/suite/bundle/tar_file.h"
+#include "bench/suite/machine/machine_plan.h"
 #include "bench/suite/suite.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
@@ -122,6 +123,8 @@ void addSuites(const std::set<std::vector<std::string>>& commands, Contents& con
     std::set<fs::path> suites;
     for (const std::vector<std::string>& command : commands) {
         const auto ofSuite = wordsOf(command, "suite"), ofPaper = wordsOf(command, "reproduce");
+        if (std::ranges::find(command, "measure-machine") != command.end())
+            for (fs::path& file : machinePlanFiles()) suites.insert(std::move(file));
         const auto found = ofSuite.empty() ? std::vector<fs::path>() : suiteOf(ofSuite, known);
         suites.insert(found.begin(), found.end());
         if (!ofSuite.empty() && found.empty())

@@ -71,7 +71,7 @@ std::string valueOf(const CellIdentity& identity, const std::string& name) {
 }
 
 CellIdentity identityOf(const StoredRun& run) {
-    static const std::set<std::string> leftOut{"repetition", "metrics", "metric_reference"};
+    static const std::set<std::string> leftOut{"repetition", "metrics", "metric_reference", "metric_pictures"};
     CellIdentity identity = keyFields(run);
     std::erase_if(identity, [](const auto& field) { return leftOut.contains(field.first); });
     return identity;

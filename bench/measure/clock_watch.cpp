@@ -1,0 +1,65 @@
+#include "bench/measure/clock_watch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace dustbench::bench {
+namespace {
+
+constexpr std::string_view prefix = "clock fell: ";
+/// Of the highest clock before it. Boost clocks move by a few steps of 15 MHz without a cause.
+constexpr double tolerance = 0.05;
+
+}  // namespace
+
+ClockWatch::ClockWatch(std::unique_ptr<GpuClock> clock, std::chrono::milliseconds interval)
+    : clock_(std::move(clock)), interval_(interval) {}
+
+void ClockWatch::betweenFrames() {
+    if (!clock_ || (range_ && std::chrono::steady_clock::now() - last_ < interval_)) return;
+    read();
+}
+
+void ClockWatch::end() {
+    if (clock_) read();
+}
+
+void ClockWatch::read() {
+    GpuClockReading reading;
+    try {
+        reading = clock_->read();
+    } catch (const std::runtime_error&) {
+        clock_.reset();
+        return;
+    }
+    last_ = std::chrono::steady_clock::now();
+    if (heldBy_.empty()) heldBy_ = reading.throttledBy;
+    const unsigned int now = reading.megahertz;
+    if (!range_) range_ = Range{now, now};
+    range_ = Range{std::min(range_->lowest, now), std::max(range_->highest, now)};
+    if (range_->highest - now > fall_.highest - fall_.lowest) fall_ = {now, range_->highest};
+}
+
+std::string ClockWatch::warning() const {
+    std::string text;
+    if (fall_.highest - fall_.lowest > tolerance * fall_.highest)
+        text = fmt::format("{}the GPU's from {} to {} MHz", prefix, fall_.highest, fall_.lowest);
+    if (heldBy_.empty()) return text;
+    return text.empty() ? fmt::format("{}the GPU's is held down by {}", prefix, heldBy_)
+                        : text + ", held down by " + heldBy_;
+}
+
+std::string throttlingWarning(std::int64_t eventsBefore, std::int64_t eventsAfter) {
+    const std::int64_t events = eventsAfter - eventsBefore;
+    if (events <= 0) return "";
+    return fmt::format("{}the processor was throttled {} {} (heat)", prefix, events, events == 1 ? "time" : "times");
+}
+
+bool saysClockFell(std::string_view warning) {
+    return warning.starts_with(prefix);
+}
+
+}  // namespace dustbench::bench

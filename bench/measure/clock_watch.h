@@ -1,0 +1,54 @@
+// Watches the GPU's clock while frames are recorded, and notes if it fell.
+//
+// Units: MHz. Threads: one at a time.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bench/measure/gpu_clock.h"
+
+namespace dustbench::bench {
+
+class ClockWatch {
+ public:
+    /// `clock` may be null: nothing is reported then. Readings are at least `interval` apart.
+    explicit ClockWatch(std::unique_ptr<GpuClock> clock,
+                        std::chrono::milliseconds interval = std::chrono::milliseconds(250));
+
+    /// Call between frames, outside of what is timed. A clock that can no longer be read is given up.
+    void betweenFrames();
+    /// The last reading, whatever the interval.
+    void end();
+
+    struct Range {
+        unsigned int lowest, highest;
+    };
+    /// Empty if nothing was read.
+    [[nodiscard]] std::optional<Range> range() const { return range_; }
+    /// Why times are those of a slower GPU: `clock fell: the GPU's from 1800 to 900 MHz, held down by heat`; empty if
+    /// the clock was steady.
+    [[nodiscard]] std::string warning() const;
+
+ private:
+    void read();
+
+    std::unique_ptr<GpuClock> clock_;
+    std::chrono::milliseconds interval_;
+    std::chrono::steady_clock::time_point last_;
+    std::optional<Range> range_;
+    Range fall_{0, 0};  ///< the largest fall: the clock after it, and the highest before
+    std::string heldBy_;
+};
+
+/// The same warning for the processor, of its throttling events before and after; empty if there were none.
+[[nodiscard]] std::string throttlingWarning(std::int64_t eventsBefore, std::int64_t eventsAfter);
+
+/// Whether a run's warning is one of these.
+[[nodiscard]] bool saysClockFell(std::string_view warning);
+
+}  // namespace dustbench::bench
