@@ -219,8 +219,10 @@ class MachineMeasurement {
 
 /// The folder's bundle beside it: `DIR.tar`.
 fs::path bundleOf(const fs::path& out) {
-    const fs::path whole = fs::absolute(out).lexically_normal();
-    fs::path folder = whole.has_filename() ? whole : whole.parent_path();
+    fs::path folder = out.lexically_normal();
+    if (!folder.has_filename()) folder = folder.parent_path();
+    if (folder.empty() || folder == "." || folder.filename() == "..") folder = fs::absolute(out).lexically_normal();
+    if (!folder.has_filename()) folder = folder.parent_path();
     return folder += ".tar";
 }
 
