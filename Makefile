@@ -60,7 +60,7 @@ package: build ## Build the Debian package, build/release/dustbench_*.deb
 	@cpack --config build/release/CPackConfig.cmake -B build/release
 
 .PHONY: portable
-portable: ## Build one file for any Linux with glibc 2.36 (build/dustbench-*-linux-x86_64.tar.zst)
+portable: ## Build one file for any Linux (unfinished: the archive is three times too large)
 	@JOBS=$(JOBS) .ci/portable
 
 .PHONY: view
@@ -151,7 +151,7 @@ elsewhere: ## Run both commands of README in a bare system of another Debian rel
 	@tests/elsewhere/readme_commands.sh $(RELEASE)
 
 .PHONY: portable-elsewhere
-portable-elsewhere: portable ## Run the portable file in bare Debian 12 and 13 with nothing but Mesa (needs root)
+portable-elsewhere: portable ## Run the portable file in bare Debian 12 and 13 with nothing but Mesa (unfinished; needs root)
 	@tests/elsewhere/portable_file.sh build/dustbench-*-linux-x86_64.tar.zst
 
 .PHONY: tsan
