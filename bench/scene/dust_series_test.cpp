@@ -196,7 +196,8 @@ TEST_F(DustIndex, ReadsCollectionsAndFileSeries) {
 
 TEST_F(DustIndex, DamagedOnesAreRefused) {
     EXPECT_THAT(refusalOf("d.series", "{\"files\": 3}"), HasSubstr("expected an object with an array 'files'"));
-    EXPECT_THAT(refusalOf("d.series", "{\"files\": [{\"name\": \"a.csv\"}]}"), HasSubstr("lacks a file or a numeric time"));
+    EXPECT_THAT(refusalOf("d.series", "{\"files\": [{\"name\": \"a.csv\"}]}"),
+                HasSubstr("lacks a file or a numeric time"));
     EXPECT_THAT(refusalOf("d.series", "{\"files\": []}"), HasSubstr("names no files"));
     EXPECT_THAT(refusalOf("d.series", "{\"files\": [{\"name\": \"gone.csv\", \"time\": 0}]}"), HasSubstr("gone.csv"));
     EXPECT_THAT(refusalOf("d.pvd", "<VTKFile type=\"Collection\"><Collection>"), HasSubstr("ends within its XML"));
