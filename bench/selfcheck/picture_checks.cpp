@@ -101,8 +101,11 @@ Check checkOf(const PlannedPicture& planned, const ResultsFolder& results, const
         check.measured = planned.skip;
         return check;
     }
-    for (const RunSpec* spec : {&planned.spec, planned.variant ? &*planned.variant : nullptr})
-        if (spec && !(check.measured = whyNoPicture(results, *spec)).empty()) return check;
+    for (const RunSpec* spec : {&planned.spec, planned.variant ? &*planned.variant : nullptr}) {
+        if (!spec) continue;
+        check.measured = whyNoPicture(results, *spec);
+        if (!check.measured.empty()) return check;
+    }
     const fs::path picture = drawn / (planned.name + ".png");
     fs::copy_file(pictureOf(results, planned.spec), picture, fs::copy_options::overwrite_existing);
     double error = 0;
@@ -156,6 +159,7 @@ std::vector<Check> pictureChecks(const std::vector<PlannedPicture>& planned, con
     ResultsFolder results(folder.path());
     (void)execute(plan, 1, results, options, listener);
     std::vector<Check> checks;
+    checks.reserve(planned.size() + 1);
     for (const PlannedPicture& picture : planned) checks.push_back(checkOf(picture, results, kept, drawn));
     std::vector<std::string> others;
     for (const MethodInfo& method : methods())
