@@ -21,11 +21,11 @@
 #include "bench/report/page.h"
 #include "bench/report/page_template.h"
 #include "bench/report/report_reader.h"
-#include "bench/report/selfcheck_findings.h"
 #include "bench/results/machine_table.h"
 #include "bench/results/run_table.h"
 #include "bench/run/child_process.h"
 #include "bench/run/progress.h"
+#include "bench/selfcheck/selfcheck_report.h"
 #include "bench/suite/bundle/bundle.h"
 #include "bench/suite/machine/machine_plan.h"
 #include "methods/contract/errors.h"
@@ -119,7 +119,7 @@ bool clockFell(const bench::StoredRun& run) {
     return std::ranges::any_of(run.warnings, bench::saysClockFell);
 }
 
-/// Works through the ladder; what is measured already counts with the time it took.
+/// Runs the ladder. Existing results count with the time that they took.
 class MachineMeasurement {
  public:
     MachineMeasurement(const bench::MachinePlan& plan, const bench::LadderLimits& limits, bench::ResultsFolder& results,
@@ -217,7 +217,7 @@ class MachineMeasurement {
     std::string outdated_;
 };
 
-/// The folder's bundle beside it: `DIR.tar`.
+/// The bundle of folder DIR: `DIR.tar`.
 fs::path bundleOf(const fs::path& out) {
     fs::path folder = out.lexically_normal();
     if (!folder.has_filename()) folder = folder.parent_path();
@@ -226,7 +226,7 @@ fs::path bundleOf(const fs::path& out) {
     return folder += ".tar";
 }
 
-/// What is small enough to be kept in a repository.
+/// Writes the tables, which are small enough for a repository.
 void writeTables(const bench::ResultsFolder& results) {
     const fs::path tables = results.path() / "tables";
     std::error_code error;

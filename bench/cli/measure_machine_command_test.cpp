@@ -77,7 +77,7 @@ TEST_F(MeasureMachine, MeasuresErrorAndTimeAndPacksABundleThatVerifies) {
     EXPECT_THAT(again.err, Not(HasSubstr("self-check"))) << "everything is there already";
     fs::copy(folder_ / "out" / "tables", folder_ / "other");
     std::string machine = contentOf(folder_ / "other" / "machine.csv");
-    machine.replace(machine.rfind(",20"), 3, ",19");  // another century, so that it is no copy
+    machine.replace(machine.rfind(",20"), 3, ",19");  // another century, so that it is not a copy
     std::ofstream(folder_ / "other" / "machine.csv") << machine;
     const Called machines = call("report " + at("out/tables") + " " + at("other") + " --text" + data);
     EXPECT_EQ(machines.code, 0) << machines.err;

@@ -20,7 +20,7 @@ class ClockWatch {
     explicit ClockWatch(std::unique_ptr<GpuClock> clock,
                         std::chrono::milliseconds interval = std::chrono::milliseconds(250));
 
-    /// Call between frames, outside of what is timed. A clock that can no longer be read is given up.
+    /// Call between frames, outside of what is timed. If the clock can no longer be read, watching stops.
     void betweenFrames();
     /// The last reading, whatever the interval.
     void end();

@@ -15,14 +15,14 @@
 namespace dustbench::bench {
 namespace {
 
-using Provenance = std::map<std::string, std::string, std::less<>>;
+using Conditions = std::map<std::string, std::string, std::less<>>;
 
-std::string fieldOf(const Provenance& machine, std::string_view name) {
+std::string fieldOf(const Conditions& machine, std::string_view name) {
     const auto found = machine.find(name);
     return found == machine.end() || found->second.empty() ? fmt::format("unknown {}", name) : found->second;
 }
 
-std::string machineText(const Provenance& machine) {
+std::string machineText(const Conditions& machine) {
     return fmt::format("{}, {} cores, {}", fieldOf(machine, "cpu"), fieldOf(machine, "cores"),
                        fieldOf(machine, "gl_renderer"));
 }

@@ -122,7 +122,8 @@ void runFrames(const RunSpec& spec, const World& world, FrameRunner& runner, con
             progress("warmup", index + spec.warmup, spec.warmup);
         else
             progress("frames", index, spec.frames);
-        if (index >= 0) clock.betweenFrames();
+        // With frames in flight there is no time between them: the next one has begun.
+        if (index >= 0 && spec.sync != Sync::none) clock.betweenFrames();
         runner.frame(index);
         const bool savesPicture = (spec.imagesEvery > 0 && index >= 0 && index % spec.imagesEvery == 0) ||
                                   std::ranges::binary_search(shown, index);

@@ -46,16 +46,18 @@ std::vector<float> blended(gpu::Device& device, gpu::Format format, std::span<co
     return target.readFloats();
 }
 
-/// Largest difference of any pixel from the same layers blended on the CPU.
+/// Largest difference of any pixel from the same layers blended on the CPU; infinite if a pixel is not a number.
 double blendingError(std::span<const float> pixels, std::span<const glm::vec4> layers) {
     glm::vec4 expected(0);
     for (const glm::vec4& layer : layers) expected = layer + (1 - layer.a) * expected;
     double error = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const auto channel = static_cast<glm::length_t>(i % 4);
-        error = std::max(error, std::abs(static_cast<double>(pixels[i]) - static_cast<double>(expected[channel])));
+        const double difference = std::abs(static_cast<double>(pixels[i]) - static_cast<double>(expected[channel]));
+        if (!std::isfinite(difference)) return std::numeric_limits<double>::infinity();
+        error = std::max(error, difference);
     }
-    return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+    return error;
 }
 
 /// Strong layers in saturated colours: in another order the result differs by tenths.

@@ -1,6 +1,7 @@
-// The findings of a self-check as a JSON document.
+// selfcheck.json: the findings of a self-check, written and read.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,5 +12,9 @@ namespace dustbench::bench {
 
 /// An object with `passed`, `device`, `machine`, `program` and `checks`: `{name, outcome, measured, expected, note}`.
 [[nodiscard]] std::string selfcheckJson(const Provenance& provenance, const std::vector<Check>& checks);
+
+/// A sentence for each failed check of `folder`/selfcheck.json; none without this file. An unreadable file gives a
+/// sentence too.
+[[nodiscard]] std::vector<std::string> selfcheckProblems(const std::filesystem::path& folder);
 
 }  // namespace dustbench::bench

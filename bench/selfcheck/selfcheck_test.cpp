@@ -44,6 +44,13 @@ TEST(DeviceChecks, NameADriverThatStoresFewerBits) {
     EXPECT_THAT(failuresWith(correctnessChecks(device)), ElementsAre("float targets"));
 }
 
+TEST(DeviceChecks, NameADriverWhosePixelsAreNotNumbers) {
+    gpu::Device device;
+    const gpu::PoisonedTextures fault;
+    EXPECT_THAT(failuresWith(correctnessChecks(device)),
+                ElementsAre("blending order", "float targets", "half-float targets"));
+}
+
 TEST(DeviceChecks, NameADriverThatReordersInstances) {
     gpu::Device device;
     const gpu::ReversedInstances fault;

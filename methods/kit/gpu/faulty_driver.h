@@ -8,6 +8,7 @@
 #include <epoxy/gl.h>
 
 #include <chrono>
+#include <limits>
 #include <utility>
 
 namespace dustbench::gpu {
@@ -39,6 +40,15 @@ class FewerBits {
             texture, levels, format == GL_RGBA32F ? GL_RGBA16F : format, width, height);
     }
     ReplacedFunction<PFNGLTEXTURESTORAGE2DPROC> storage_{epoxy_glTextureStorage2D, store};
+};
+
+/// The first value read back from a texture is not a number.
+class PoisonedTextures {
+    static void read(GLuint texture, GLint level, GLenum format, GLenum type, GLsizei bytes, void* values) {
+        ofDriver<PFNGLGETTEXTUREIMAGEPROC>("glGetTextureImage")(texture, level, format, type, bytes, values);
+        if (type == GL_FLOAT) *static_cast<float*>(values) = std::numeric_limits<float>::quiet_NaN();
+    }
+    ReplacedFunction<PFNGLGETTEXTUREIMAGEPROC> read_{epoxy_glGetTextureImage, read};
 };
 
 /// Instances are drawn last to first.

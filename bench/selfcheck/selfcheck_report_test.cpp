@@ -1,4 +1,4 @@
-#include "bench/report/selfcheck_findings.h"
+#include "bench/selfcheck/selfcheck_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
