@@ -49,21 +49,20 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Shows each run with its place among all cells, of which the executor sees one at a time.
+/// Shows each run with its place among all cells, of which the executor sees one at a time. The time left is unknown:
+/// it depends on the loads that fit.
 class PlacedProgress final : public ProgressPrinter {
  public:
-    void place(std::size_t position, std::size_t total, double secondsLeft) {
+    void place(std::size_t position, std::size_t total) {
         position_ = position;
         total_ = total;
-        secondsLeft_ = secondsLeft;
     }
     void started(std::size_t, std::size_t, const bench::PlannedRun& run, int repetitions, double) override {
-        ProgressPrinter::started(position_, total_, run, repetitions, secondsLeft_);
+        ProgressPrinter::started(position_, total_, run, repetitions, -1);
     }
 
  private:
     std::size_t position_ = 0, total_ = 0;
-    double secondsLeft_ = 0;
 };
 
 bench::LadderLimits limitsHere(const bench::MachinePlan& plan) {
@@ -186,7 +185,7 @@ class MachineMeasurement {
         const double allowed = limits_.runSeconds + (run.spec.judging ? limits_.judgingSeconds : 0);
         execution_.timeoutSeconds = 2 * allowed;
         execution_.force = again;
-        progress_.place(position_, cells_.size(), std::max(limits_.totalSeconds - elapsed_, 0.0));
+        progress_.place(position_, cells_.size());
         const bench::ExecutionResult result = bench::execute({run}, cell.repetitions, results_, execution_, progress_);
         if (outdated_.empty()) outdated_ = result.whyOutdated;
         isNew = result.kept == 0;
