@@ -6,12 +6,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
+#include <map>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "bench/scene/dust_files.h"
 #include "methods/kit/files/input_log.h"
+#include "methods/kit/testing/python_script.h"
 #include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
@@ -78,33 +82,94 @@ std::vector<DustRow> readRows() {
     };
 }
 
+void expectTheTwoParticles(const std::filesystem::path& file, const std::vector<std::string>& ignored, bool coloured) {
+    const files::InputLog log;
+    const DustFiles read = readDustFiles(file, {}, false);
+    ASSERT_EQ(read.moments.size(), 1u);
+    const DustMoment& moment = read.moments.front();
+    ASSERT_EQ(moment.size(), 2u);
+    EXPECT_EQ(glm::vec3(moment.x[0], moment.y[0], moment.z[0]), glm::vec3(1, 2, 3));
+    EXPECT_EQ(glm::vec3(moment.x[1], moment.y[1], moment.z[1]), glm::vec3(4, 5, 6));
+    for (const std::size_t i : {0u, 1u}) {
+        EXPECT_EQ(moment.radius[i], 0.5f);
+        EXPECT_EQ(moment.opacity[i], 0.1f);
+    }
+    ASSERT_EQ(moment.hasColour, coloured);
+    if (coloured) {
+        EXPECT_EQ(glm::vec3(moment.red[1], moment.green[1], moment.blue[1]), glm::vec3(0.5f, 0.25f, 1));
+    }
+    const auto logged = log.ignored();
+    if (ignored.empty()) {
+        EXPECT_TRUE(logged.empty()) << testing::PrintToString(logged);
+    } else {
+        EXPECT_THAT(logged.at(file), ElementsAreArray(ignored));
+    }
+}
+
 TEST(DustWall, TablesThatOtherProgramsWriteAreTheSameTwoParticles) {
     const TestFolder folder;
     for (const DustRow& row : readRows()) {
         SCOPED_TRACE(row.what);
-        const files::InputLog log;
-        const auto file = folder.write(row.name, row.text);
-        const DustFiles read = readDustFiles(file, {}, false);
-        ASSERT_EQ(read.moments.size(), 1u);
-        const DustMoment& moment = read.moments.front();
-        ASSERT_EQ(moment.size(), 2u);
-        EXPECT_EQ(glm::vec3(moment.x[0], moment.y[0], moment.z[0]), glm::vec3(1, 2, 3));
-        EXPECT_EQ(glm::vec3(moment.x[1], moment.y[1], moment.z[1]), glm::vec3(4, 5, 6));
-        for (const int i : {0, 1}) {
-            EXPECT_EQ(moment.radius[static_cast<std::size_t>(i)], 0.5f);
-            EXPECT_EQ(moment.opacity[static_cast<std::size_t>(i)], 0.1f);
-        }
-        ASSERT_EQ(moment.hasColour, row.hasColour);
-        if (row.hasColour) {
-            EXPECT_EQ(glm::vec3(moment.red[1], moment.green[1], moment.blue[1]), glm::vec3(0.5f, 0.25f, 1));
-        }
-        const auto ignored = log.ignored();
-        if (row.ignored.empty()) {
-            EXPECT_TRUE(ignored.empty()) << testing::PrintToString(ignored);
+        expectTheTwoParticles(folder.write(row.name, row.text), row.ignored, row.hasColour);
+    }
+}
+
+/// Options of pandas' to_csv; the name of a file says what is right: read it, ignore a column, or refuse it.
+constexpr const char* writeTables = R"(
+import csv, sys, numpy, pandas
+folder = sys.argv[1] + '/'
+dust = pandas.DataFrame({'x': [1, 4], 'y': [2, 5], 'z': [3, 6], 'radius': [0.5, 0.5], 'opacity': [0.1, 0.1]})
+
+def write(name, table=dust, **options):
+    table.to_csv(folder + name + '.csv', **({'index': False} | options))
+
+write('read_plain')
+write('read_float32', dust.astype('float32'))
+write('read_categories', dust.astype('category'))
+write('read_exponents', float_format='%.3e')
+write('read_quoted', quoting=csv.QUOTE_ALL)
+write('read_quoted_names', quoting=csv.QUOTE_NONNUMERIC)
+write('read_windows', lineterminator='\r\n')
+write('read_old_mac', lineterminator='\r')
+write('read_byte_order_mark', encoding='utf-8-sig')
+write('read_shuffled_columns', columns=['opacity', 'z', 'radius', 'x', 'y'])
+numpy.savetxt(folder + 'read_numpy.csv', dust.to_numpy(), delimiter=',', header='x,y,z,radius,opacity', comments='')
+with open(folder + 'read_dict_writer.csv', 'w', newline='') as file:
+    writer = csv.DictWriter(file, dust.columns)
+    writer.writeheader()
+    writer.writerows(dust.to_dict('records'))
+write('ignore__index', index=True)
+write('ignore_step_index', index=True, index_label='step')
+write('ignore_note_text', dust.assign(note=['a, "b"', None]))
+write('ignore_when_dates', dust.assign(when=pandas.to_datetime(['2026-01-01', '2026-01-02'])))
+write('refuse_semicolons_german', sep=';', decimal=',')
+write('refuse_tabs_tsv', sep='\t')
+write('refuse_nan_gap', dust.assign(x=[None, 4.0]), na_rep='nan')
+write('refuse_UTF-16_encoding', encoding='utf-16')
+write('refuse_1,5_decimal', dust.assign(x=[1.5, 4.5]), decimal=',')
+write('refuse_radius_levels', pandas.concat([dust, dust[['radius']] + 1], axis=1))
+)";
+
+TEST(DustWall, TablesOfPandasAreReadOrRefusedByTheirReason) {
+    if (std::system("/usr/bin/python3 -c 'import pandas' 2>/dev/null") != 0 && !std::getenv("CI"))
+        GTEST_SKIP() << "needs pandas (.ci/install pandas)";
+    const TestFolder folder;
+    (void)python(folder, writeTables, folder.path());
+    std::map<std::string, int> counts;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        const std::string name = entry.path().stem().string();
+        SCOPED_TRACE(name);
+        const std::size_t first = name.find('_') + 1;
+        const std::string action = name.substr(0, first - 1), word = name.substr(first, name.find('_', first) - first);
+        counts[action]++;
+        if (action == "refuse") {
+            EXPECT_THAT(inputError([&] { (void)readDustFiles(entry.path(), {}, false); }), HasSubstr(word));
         } else {
-            EXPECT_THAT(ignored.at(file), ElementsAreArray(row.ignored));
+            const std::vector<std::string> column{"column '" + word + "'"};
+            expectTheTwoParticles(entry.path(), action == "read" ? std::vector<std::string>() : column, false);
         }
     }
+    EXPECT_EQ(counts, (std::map<std::string, int>{{"read", 12}, {"ignore", 4}, {"refuse", 6}}));
 }
 
 TEST(DustWall, TablesThatMeanSomethingElseAreRefusedByTheirReason) {
