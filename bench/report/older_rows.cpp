@@ -42,6 +42,15 @@ bool isEqual(const std::string& a, const std::string& b) {
     return a == b || (x && y && *x == *y);
 }
 
+/// Whether the row lacks a parameter that its method has today.
+bool isOlder(const StoredRun& run) {
+    const auto method = std::ranges::find(methods(), cellIn(run, "method"), &MethodInfo::id);
+    return method != methods().end() &&
+           std::ranges::any_of(canonicalParameters(*method, {}), [&](const auto& parameter) {
+               return !parameter.second.empty() && !run.parameters.contains(parameter.first);
+           });
+}
+
 /// The runs of all suites of this build, with as many repetitions as in the rows.
 PlannedByKey plannedRuns(const StoredRuns& runs) {
     int repetitions = 1;
@@ -88,6 +97,7 @@ std::optional<std::set<std::string>> missingIn(const StoredRun& run, const RunSp
 }  // namespace
 
 void adoptOlderRows(StoredRuns& runs, std::vector<std::string>& problems) {
+    if (std::ranges::none_of(runs, [](const auto& entry) { return isOlder(entry.second); })) return;
     const PlannedByKey planned = plannedRuns(runs);
     std::set<std::string> added, taken;
     std::vector<std::pair<std::string, std::string>> renamed;

@@ -79,7 +79,10 @@ ParameterTexts canonicalParameters(const MethodInfo& method, const ParameterText
 }
 
 void requireChangesWithinRun(const RunSpec& spec) {
-    const ParameterValues values = resolveParameters(findMethod(spec.method), spec.parameters).method;
+    const MethodInfo& method = findMethod(spec.method);
+    const auto isChanges = [](const Parameter& parameter) { return parameter.type == ParameterType::changes; };
+    if (std::ranges::none_of(method.parameters.all(), isChanges)) return;
+    const ParameterValues values = resolveParameters(method, spec.parameters).method;
     const double last = static_cast<double>(spec.frames - 1) * stepSeconds;
     for (const Parameter& parameter : values.declared().all()) {
         if (parameter.type != ParameterType::changes) continue;

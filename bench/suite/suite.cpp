@@ -135,28 +135,27 @@ Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
     requireNothingTimed(draft);
     Suite suite = std::move(draft.suite);
     for (const std::string& id : draft.methods) {
-        const ParameterLists lists = listsOf(draft, id);
+        RunSpec base = draft.base;
+        base.method = id;
+        if (const auto finer = draft.finerSettings.find(id); base.judging && finer != draft.finerSettings.end())
+            base.judging->finer = finer->second;
+        // The same in every world, so they are resolved once.
+        const std::vector<PlannedRun> settings = expandParameters(base, findMethod(id), listsOf(draft, id));
+        for (const PlannedRun& setting : settings) requireChangesWithinRun(setting.spec);
         for (const std::string& scene : draft.scenes)
             for (const std::string& drive : draft.drives)
                 for (const std::string& size : draft.sizes)
-                    for (const std::uint64_t seed : draft.seeds) {
-                        RunSpec base = draft.base;
-                        base.method = id;
-                        base.scene = scene;
-                        base.drive = drive;
-                        base.size = parseSize(size);
-                        base.seed = seed;
-                        if (const auto finer = draft.finerSettings.find(id);
-                            base.judging && finer != draft.finerSettings.end())
-                            base.judging->finer = finer->second;
-                        for (PlannedRun& run : expandParameters(base, findMethod(id), lists)) {
-                            requireChangesWithinRun(run.spec);
+                    for (const std::uint64_t seed : draft.seeds)
+                        for (PlannedRun run : settings) {
+                            run.spec.scene = scene;
+                            run.spec.drive = drive;
+                            run.spec.size = parseSize(size);
+                            run.spec.seed = seed;
                             if (draft.seeds.size() > 1) run.label = fmt::format("seed={} {}", seed, run.label);
                             if (draft.drives.size() > 1) run.label = drive + " " + run.label;
                             if (draft.sizes.size() > 1) run.label = size + " " + run.label;
                             suite.cells.push_back(std::move(run));
                         }
-                    }
     }
     for (const Exception& exception : draft.exceptions)
         if (leaveOut(exception, suite.cells) == 0 && wholeFile)
