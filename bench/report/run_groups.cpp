@@ -141,15 +141,30 @@ std::string labelOf(const RunGroup& group, const ReportCell& cell, bool world) {
     return label;
 }
 
-/// The existing runs of the suite, full or quick.
-std::vector<const StoredRun*> runsOf(const Suite& suite, int repetitions, const StoredRuns& runs) {
-    std::vector<const StoredRun*> found;
-    for (const PlannedRun& cell : suite.cells)
-        for (int repetition = 1; repetition <= repetitions; ++repetition)
-            if (const auto run = runs.find(runId(inRepetition(cell.spec, repetition))); run != runs.end())
-                found.push_back(&run->second);
-    return found;
-}
+/// Finds the runs of suites in results.
+class RunFinder {
+ public:
+    RunFinder(const StoredRuns& runs, int repetitions) : runs_(runs), repetitions_(repetitions) {
+        for (const auto& [id, run] : runs) methods_.insert(cellOf(run, "method"));
+    }
+
+    /// The existing runs of the suite, full or quick.
+    [[nodiscard]] std::vector<const StoredRun*> of(const Suite& suite) const {
+        std::vector<const StoredRun*> found;
+        for (const PlannedRun& cell : suite.cells) {
+            if (!methods_.contains(cell.spec.method)) continue;  // saves the hash in its id
+            for (int repetition = 1; repetition <= repetitions_; ++repetition)
+                if (const auto run = runs_.find(runId(inRepetition(cell.spec, repetition))); run != runs_.end())
+                    found.push_back(&run->second);
+        }
+        return found;
+    }
+
+ private:
+    const StoredRuns& runs_;
+    int repetitions_;
+    std::set<std::string> methods_;
+};
 
 /// Fills in the suite's description and its verdicts on the runs.
 void describeBy(Suite suite, int repetitions, const StoredRuns& runs, RunGroup& group) {
@@ -213,6 +228,7 @@ std::vector<RunGroup> sortIntoGroups(const StoredRuns& runs, const MachineOfRun&
     for (const auto& [id, run] : runs)
         repetitions = std::max(repetitions, static_cast<int>(numberIn(run, "repetition").value_or(1)));
 
+    const RunFinder finder(runs, repetitions);
     std::vector<RunGroup> groups;
     std::set<const StoredRun*> placed;
     std::vector<std::string> faults;
@@ -221,11 +237,11 @@ std::vector<RunGroup> sortIntoGroups(const StoredRuns& runs, const MachineOfRun&
         for (const bool quick : {false, true}) {
             try {
                 Suite suite = loadSuite(file.id, quick);
-                const std::vector<const StoredRun*> found = runsOf(suite, repetitions, runs);
+                const std::vector<const StoredRun*> found = finder.of(suite);
                 // Runs that belong to both the full and the quick run are shown once.
                 if (std::ranges::all_of(found, [&](const StoredRun* run) { return shown.contains(run); })) continue;
                 shown.insert(found.begin(), found.end());
-                const std::vector<const StoredRun*> all = runsOf(withBaselines(suite), repetitions, runs);
+                const std::vector<const StoredRun*> all = finder.of(withBaselines(suite));
                 placed.insert(all.begin(), all.end());
                 RunGroup group = makeGroup(found, machines);
                 group.id = quick ? file.id + "-quick" : file.id;
