@@ -97,6 +97,13 @@ struct PresentField {
     return fields.size() > 10 ? list + " and " + std::to_string(fields.size() - 10) + " others" : list;
 }
 
+/// Whether it has one of these names, alone or with its kind, as listOf writes them: `density`, `density (at cells)`.
+[[nodiscard]] inline bool hasName(const PresentField& field, std::span<const std::string> names) {
+    return std::ranges::any_of(names, [&](const std::string& name) {
+        return name == field.name || name == field.name + " (" + field.kind + ")";
+    });
+}
+
 /// Index of the wanted field in `present`: the only one with one of these names and the right components, at cells or
 /// points; −1 if there is none and it is optional. Otherwise throws `Refusal` with a clause.
 template <typename Refusal>
@@ -107,7 +114,7 @@ template <typename Refusal>
     for (int i = 0; i < static_cast<int>(present.size()); ++i) {
         const PresentField& field = present[static_cast<std::size_t>(i)];
         if (isBookkeeping(field.name)) continue;
-        const bool isNamed = std::ranges::find(wanted.names, field.name) != wanted.names.end();
+        const bool isNamed = hasName(field, wanted.names);
         if (field.components != wanted.components) {
             if (isNamed) others.push_back(field);
             continue;
@@ -122,7 +129,7 @@ template <typename Refusal>
     const std::string what(wanted.what), numbers = wanted.components == 3 ? "vectors" : "numbers";
     if (named.size() > 1)
         throw Refusal{"it has more than one field of " + numbers + " for its " + what + ": " + listOf(named) +
-                      "; expected one, or the name of one in a .toml"};
+                      "; name one of these in [fields] of a .toml"};
     if (wanted.takesOnlyOne && fitting.size() == 1) return only;
     if (!wanted.isRequired) return -1;
     const std::string reason = "it has no field of " + numbers + " '" + wanted.names.front() + "'";

@@ -75,6 +75,12 @@ TEST(WhichField, TwoCandidatesAreRefusedAndNamed) {
     VolumeFields named;
     named.density = "density";
     EXPECT_THAT(rowRefusal(folder, {cells}, {points}, named), HasSubstr("density (at cells), density (at points)"));
+    named.density = "density (at cells)";
+    EXPECT_THAT(readRow(folder, {cells}, {points}, named).density, ElementsAre(1, 2, 3));
+    named.density = "density (at points)";
+    EXPECT_EQ(readRow(folder, {cells}, {points}, named).density[15], 16);
+    EXPECT_THAT(rowRefusal(folder, {cells}, {}, named), HasSubstr("no field of numbers 'density (at points)'"));
+    named.density = "density";
     EXPECT_THAT(rowRefusal(folder, {{"Float32", "smoke", "1 2 3"}, cells}, {}), HasSubstr("smoke, density"));
     EXPECT_THAT(rowRefusal(folder, {{"Int32", "material", "1 2 3"}}, {{"Float32", "rho", sixteen}}),
                 HasSubstr("it has: material, rho"));
@@ -135,6 +141,9 @@ TEST(WhichField, TwoVdbGridsOfANameAreRefused) {
     const auto one = gridOfOneCell<openvdb::FloatGrid>("density", 1),
                two = gridOfOneCell<openvdb::FloatGrid>("density", 2);
     EXPECT_THAT(refusal({one, two}), HasSubstr("density (grid 1 of float), density (grid 2 of float)"));
+    VolumeFields second;
+    second.density = "density (grid 2 of float)";
+    EXPECT_THAT(readVolume(file, second).density, ElementsAre(2));
     EXPECT_THAT(refusal({one, gridOfOneCell<openvdb::FloatGrid>("smoke", 1)}), HasSubstr("density, smoke"));
     EXPECT_THAT(
         refusal({one, gridOfOneCell<openvdb::Vec3SGrid>("v", {}), gridOfOneCell<openvdb::Vec3SGrid>("vel", {})}),
