@@ -49,6 +49,8 @@ class DUSTBENCH_API InstanceBatch {
     void unmap();
 
     [[nodiscard]] std::size_t count() const { return count_; }
+    /// Binds the values of the shapes mapped last, for a pass that does not draw them.
+    void bindValues(std::uint32_t binding) const { instances_.bindStorage(binding); }
     [[nodiscard]] std::size_t gpuBytes() const { return instances_.bytes() + corners_.bytes(); }
 
  protected:

@@ -62,4 +62,12 @@ void PuffQuads::add(const gpu::Program& program, const gpu::Texture& sceneDepth)
     drawInstances(program, state);
 }
 
+void PuffQuads::store(const gpu::Program& program, const gpu::Texture& sceneDepth) {
+    if (count() == 0) return;
+    sceneDepth.bind(0);
+    gpu::DrawState state;
+    state.storesToBuffers = true;
+    drawInstances(program, state);
+}
+
 }  // namespace dustbench::draw

@@ -12,6 +12,9 @@ flat out float logDepth;
 #ifdef COLOURED
 flat out vec3 puffColour;
 #endif
+#ifdef NUMBERED
+flat out int puffNumber;
+#endif
 
 /// −log2(1 − α)·ln 2 = τ; a series for small α, where 1 − α would lose digits.
 float opticalDepth(float opacity) {
@@ -46,5 +49,8 @@ void main() {
     logDepth = log2(max(depth, 1e-30));
 #ifdef COLOURED
     puffColour = vec3(values[base + FLOATS - 3], values[base + FLOATS - 2], values[base + FLOATS - 1]);
+#endif
+#ifdef NUMBERED
+    puffNumber = wanted;
 #endif
 }

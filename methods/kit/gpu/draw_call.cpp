@@ -25,6 +25,11 @@ GLenum modeOf(Primitives primitives) {
     return GL_TRIANGLES;
 }
 
+void finish(const DrawState& state, const char* what) {
+    if (state.storesToBuffers) glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    throwOnDebugOutput(what);
+}
+
 void prepare(const Program& program, const VertexArray& vertices, const DrawState& state) {
     enable(GL_DEPTH_TEST, state.depthTest || state.depthWrite);
     glDepthFunc(state.depthTest ? GL_GEQUAL : GL_ALWAYS);
@@ -44,7 +49,7 @@ void draw(const Program& program, const VertexArray& vertices, const DrawState& 
     if (vertexCount <= 0 || instances <= 0) return;
     prepare(program, vertices, state);
     glDrawArraysInstanced(modeOf(primitives), 0, vertexCount, instances);
-    throwOnDebugOutput("draw");
+    finish(state, "draw");
 }
 
 void drawIndexed(const Program& program, const VertexArray& vertices, const DrawState& state, Primitives primitives,
@@ -52,7 +57,7 @@ void drawIndexed(const Program& program, const VertexArray& vertices, const Draw
     if (indexCount <= 0 || instances <= 0) return;
     prepare(program, vertices, state);
     glDrawElementsInstanced(modeOf(primitives), indexCount, GL_UNSIGNED_INT, nullptr, instances);
-    throwOnDebugOutput("indexed draw");
+    finish(state, "indexed draw");
 }
 
 }  // namespace dustbench::gpu

@@ -17,6 +17,7 @@ struct DrawState {
     bool depthWrite = false;
     Blend blend = Blend::none;
     bool cullBackFaces = false;
+    bool storesToBuffers = false;  ///< subsequent commands see what the shaders store
 };
 
 enum class Primitives { triangles, triangleStrip, points, lines };
