@@ -79,6 +79,7 @@ const std::vector<Product> products{
     {"octree_search", {}, {"render", "crossfade"}, true},
     {"voxel_shape", {}, {"render", "blend"}},
     {"exact_tiles", {}, {}, true},
+    {"multi_layer", {}, {"puff"}, true},
     {"weighted_oit", {}, {"weight"}, true},
     {"moment_oit", {}, {"moments", "profile", "samples", "warp"}, true},
 };
