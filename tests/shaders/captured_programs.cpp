@@ -80,6 +80,7 @@ const std::vector<Product> products{
     {"voxel_shape", {}, {"render", "blend"}},
     {"exact_tiles", {}, {}, true},
     {"linked_list", {}, {"puff"}, true},
+    {"multi_layer", {}, {"puff"}, true},
     {"weighted_oit", {}, {"weight"}, true},
     {"moment_oit", {}, {"moments", "profile", "samples", "warp"}, true},
 };
