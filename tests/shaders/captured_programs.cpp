@@ -80,6 +80,7 @@ const std::vector<Product> products{
     {"voxel_shape", {}, {"render", "blend"}},
     {"exact_tiles", {}, {}, true},
     {"weighted_oit", {}, {"weight"}, true},
+    {"offscreen_particles", {}, {"upsampling", "edges"}, true},
     {"moment_oit", {}, {"moments", "profile", "samples", "warp"}, true},
 };
 
