@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "draw_shaders.h"
 #include "methods/kit/gpu/draw_call.h"
 #include "offscreen_particles_shaders.h"
 
@@ -36,11 +37,11 @@ void OffscreenParticles::prepare(const scene::Scene&, const RunSetup&, gpu::Devi
     device_ = &device;
     noVertices_.emplace(device);
     quads_.emplace(device, draw::BillboardStyle{});
-    shrinkDepth_ = gpu::Program(device, "shrink depth", {whole_image_vert, shrink_depth_frag});
+    shrinkDepth_ = gpu::Program(device, "shrink depth", {draw_shaders::composite_vert, shrink_depth_frag});
     if (settings_.edges == Edges::mixed)
-        edgeDepth_ = gpu::Program(device, "edge depth", {taps_glsl, whole_image_vert, edge_depth_frag});
-    upsample_ =
-        gpu::Program(device, "upsample", {taps_glsl, whole_image_vert, upsample_frag}, upsampleDefinitions(settings_));
+        edgeDepth_ = gpu::Program(device, "edge depth", {taps_glsl, draw_shaders::composite_vert, edge_depth_frag});
+    upsample_ = gpu::Program(device, "upsample", {taps_glsl, draw_shaders::composite_vert, upsample_frag},
+                             upsampleDefinitions(settings_));
 }
 
 void OffscreenParticles::update(const Frame& frame) {
