@@ -82,6 +82,7 @@ const std::vector<Product> products{
     {"linked_list", {}, {"puff"}, true},
     {"multi_layer", {}, {"puff"}, true},
     {"weighted_oit", {}, {"weight"}, true},
+    {"offscreen_particles", {}, {"upsampling", "edges"}, true},
     {"moment_oit", {}, {"moments", "profile", "samples", "warp"}, true},
 };
 
