@@ -80,6 +80,7 @@ const std::vector<Product> products{
     {"voxel_shape", {}, {"render", "blend"}},
     {"exact_tiles", {}, {}, true},
     {"weighted_oit", {}, {"weight"}, true},
+    {"stochastic_transparency", {}, {"puff", "stratified", "alpha_correction"}, true},
     {"moment_oit", {}, {"moments", "profile", "samples", "warp"}, true},
 };
 

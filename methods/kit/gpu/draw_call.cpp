@@ -55,4 +55,8 @@ void drawIndexed(const Program& program, const VertexArray& vertices, const Draw
     throwOnDebugOutput("indexed draw");
 }
 
+void makeWritesVisible() {
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+}
+
 }  // namespace dustbench::gpu
