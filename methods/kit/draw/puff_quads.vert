@@ -9,6 +9,7 @@ uniform vec4 projection;  // x and y scale, near distance, reach in s
 
 flat out vec4 centre;  // eye space; 1/(√2·s)
 flat out float logDepth;
+flat out int puffIndex;
 #ifdef COLOURED
 flat out vec3 puffColour;
 #endif
@@ -46,6 +47,7 @@ void main() {
         gl_Position = vec4(position.xy * projection.xy, projection.z, -position.z);
     }
     centre = vec4(place, sqrt(2.0) / max(radius, 1e-20));
+    puffIndex = min(wanted, count - 1);
     logDepth = log2(max(depth, 1e-30));
 #ifdef COLOURED
     puffColour = vec3(values[base + FLOATS - 3], values[base + FLOATS - 2], values[base + FLOATS - 1]);
