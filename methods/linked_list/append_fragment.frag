@@ -4,7 +4,7 @@
 // Source: YangEtAl2010. Departs: number, depth and alpha of the puff are stored instead of its colour.
 flat in vec4 centre;
 flat in float logDepth;
-flat in int puffNumber;
+flat in int puffIndex;
 uniform vec4 rays;
 uniform float nearMetres;
 uniform int pictureWidth;
@@ -43,7 +43,7 @@ void main() {
         uint fragment = before + 1u;  // number 0 ends a list
         if (before < uint(links.length()) - 1u) {
             uint next = atomicExchange(heads[pixel.y * pictureWidth + pixel.x], fragment);
-            links[fragment] = uvec2(next, uint(puffNumber));
+            links[fragment] = uvec2(next, uint(puffIndex));
             fragments[fragment] = vec2(depth, alpha);
         }
     }

@@ -21,7 +21,7 @@ void LinkedList::prepare(const scene::Scene&, const RunSetup&, gpu::Device& devi
     device_ = &device;
     quads_.emplace(device, reach_);
     counter_ = gpu::Buffer(device, "fragment counter", 2 * sizeof(std::uint32_t));
-    std::map<std::string, std::string> definitions{{"NUMBERED", ""}};
+    std::map<std::string, std::string> definitions;
     if (puff_ == Puff::surface) definitions["SURFACE"] = "";
     append_ = draw::puffPass("linked lists: append", {linked_list_shaders::append_fragment_frag}, definitions);
 }

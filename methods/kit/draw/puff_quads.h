@@ -4,7 +4,7 @@
 // A method's fragment shader reads `flat in vec4 centre; flat in float logDepth;` and, if COLOURED, `flat in vec3
 // puffColour`, and calls the functions of puff_ray.glsl. Its outputs are added to the bound sums. Depth 1 − share
 // beyond `reach` standard deviations from a puff's centre is not drawn: exp(−reach²/2) of its depth at most.
-// With the definition NUMBERED the shader also reads `flat in int puffNumber;`, the puff's place in the upload.
+// A shader that needs the puff's place in the upload reads `flat in int puffIndex;`.
 //
 // Units: m. Frame: world. Colours: linear RGB. Owns: the instances, on the GPU. Threads: the OpenGL thread; filling
 // uses the current oneTBB arena.

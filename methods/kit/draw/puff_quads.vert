@@ -9,12 +9,9 @@ uniform vec4 projection;  // x and y scale, near distance, reach in s
 
 flat out vec4 centre;  // eye space; 1/(√2·s)
 flat out float logDepth;
-flat out int puffIndex;
+flat out int puffIndex;  // the puff's place in the upload
 #ifdef COLOURED
 flat out vec3 puffColour;
-#endif
-#ifdef NUMBERED
-flat out int puffNumber;
 #endif
 
 /// −log2(1 − α)·ln 2 = τ; a series for small α, where 1 − α would lose digits.
@@ -51,8 +48,5 @@ void main() {
     logDepth = log2(max(depth, 1e-30));
 #ifdef COLOURED
     puffColour = vec3(values[base + FLOATS - 3], values[base + FLOATS - 2], values[base + FLOATS - 1]);
-#endif
-#ifdef NUMBERED
-    puffNumber = wanted;
 #endif
 }
