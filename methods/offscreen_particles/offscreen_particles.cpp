@@ -135,7 +135,7 @@ MethodInfo describe() {
         .choice("edges", Edges::mixed, edgeKinds,
                 "pixels at depth edges: drawn again at full resolution, or enlarged like all others");
     info.facts = {{"bits_per_pixel", "bit", FactOver::lastFrame,
-                   "storage of the method's intermediate targets per pixel of the picture"}};
+                   "storage of the intermediate targets per pixel of the picture; of lists, the part in use"}};
     info.create = [](const ParameterValues& values) {
         return std::make_unique<OffscreenParticles>(Settings{values.choice("scale", scales),
                                                              values.choice("upsampling", upsamplings),

@@ -102,8 +102,8 @@ MethodInfo describe() {
                 "a surface at the depth of the puff's centre, or a volume cut at the eye and the scene")
         .real("reach", 3.5, 2, 6, "deviations",
               "half-side of a puff's quad in standard deviations; exp(-reach^2/2) of its depth is cut off");
-    info.facts.push_back(
-        {.name = "bits_per_pixel", .unit = "bit", .meaning = "memory of a pixel's samples and sums", .valid = {}});
+    info.facts.push_back({"bits_per_pixel", "bit", FactOver::lastFrame,
+                          "storage of the intermediate targets per pixel of the picture; of lists, the part in use"});
     info.create = [](const ParameterValues& values) {
         return std::make_unique<StochasticTransparency>(Settings{.samples = static_cast<int>(values.integer("samples")),
                                                                  .stratified = values.boolean("stratified"),
