@@ -1,6 +1,6 @@
 // Multi-layer alpha blending: every pixel keeps k layers, sorted by depth. Each fragment is inserted by its depth. If
-// that makes k + 1 layers, the two farthest are merged. With k layers or fewer, the order is exact; total alpha always
-// is.
+// that makes k + 1 layers, the two farthest are merged. With at most k fragments the order is exact. Total alpha always
+// is, but for fragments with an alpha below 1e-5, which are left out.
 //
 // The paper inserts fragments in a pixel shader under a fragment interlock, which OpenGL 4.5 lacks. Here, a compute
 // shader works in tiles of 8 × 8 pixels: an invocation goes through the puffs of its tile in their order in memory,
