@@ -114,7 +114,8 @@ TEST(DustWall, TablesThatOtherProgramsWriteAreTheSameTwoParticles) {
     }
 }
 
-/// Options of pandas' to_csv; the name of a file says what is right: read it, ignore a column, or refuse it.
+/// Writes tables with pandas, numpy and csv. A file's name begins with the expected result: read, ignore_COLUMN or
+/// refuse_WORD, a word of the message.
 constexpr const char* writeTables = R"(
 import csv, sys, numpy, pandas
 folder = sys.argv[1] + '/'
