@@ -13,23 +13,15 @@ layout(std430, binding = 1) buffer Samples {
     uint nearest[];  // bits of n/z, by pixel and sample; 0: nothing
 };
 
-layout(location = 0) out vec4 nothing;
-#if CORRECTED == 1
-layout(location = 1) out float noDepth;
-#endif
-
 void main() {
-    nothing = vec4(0);
-#if CORRECTED == 1
-    noDepth = 0.0;
-#endif
     ivec2 place = ivec2(gl_FragCoord.xy);
     Surface surface = surfaceOf(centre, logDepth, rayThrough(gl_FragCoord.xy, rays),
                                 texelFetch(sceneDepth, place, 0).r, nearMetres);
-    if (surface.depth <= 0.0) return;
+    if (surface.depth <= 0.0) discard;
     int pixel = place.y * pictureWidth + place.x;
     uvec2 mask = randomMask(uvec2(key.xy), uvec2(pixel, puffIndex), opacityOf(surface.depth));
     uint bits = floatBitsToUint(surface.nearness);
     for (int s = 0; s < SAMPLES; ++s)
         if ((mask[s / 32] >> (s % 32) & 1u) != 0u) atomicMax(nearest[pixel * SAMPLES + s], bits);
+    discard;
 }

@@ -8,12 +8,11 @@ struct Surface {
 Surface surfaceOf(vec4 centre, float logDepth, vec3 ray, float scene, float nearMetres) {
     float stretch = length(ray);
     float sceneMetres = sceneMetresOf(scene, nearMetres, stretch);
-#if VOLUME == 1
     PuffOnRay puff = puffOnRay(centre, logDepth, ray / stretch, sceneMetres);
+#if VOLUME == 1
     float metres = clamp(puff.foot, nearMetres, max(sceneMetres, nearMetres)) / stretch;
     return Surface(puff.whole * shareOnRay(puff), nearMetres / metres);
 #else
-    PuffOnRay puff = puffOnRay(centre, logDepth, ray / stretch, sceneMetres);
     float nearness = nearMetres / max(-centre.z, nearMetres);
     bool visible = -centre.z > nearMetres && nearness >= scene;
     return Surface(visible ? puff.whole : 0.0, nearness);

@@ -4,13 +4,10 @@
 #include <string>
 
 #include "methods/contract/errors.h"
-#include "methods/kit/gpu/draw_call.h"
 #include "stochastic_transparency_shaders.h"
 
 namespace dustbench::stochastic_transparency {
 namespace {
-
-constexpr std::size_t maximumBytes = std::size_t{1} << 27;  // of a storage buffer; guaranteed by OpenGL 4.5
 
 std::map<std::string, std::string> definitionsOf(const Settings& settings) {
     return {{"SAMPLES", std::to_string(settings.samples)},
@@ -44,10 +41,11 @@ void StochasticTransparency::update(const Frame& frame) {
 void StochasticTransparency::fitSamples(int width, int height) {
     const std::size_t bytes = 4 * static_cast<std::size_t>(settings_.samples) * static_cast<std::size_t>(width) *
                               static_cast<std::size_t>(height);
+    const std::size_t maximumBytes = device_->maximumStorageBytes();
     if (bytes > maximumBytes)
         throw InputError("samples: got " + std::to_string(settings_.samples) + " for " + std::to_string(width) + "x" +
                          std::to_string(height) + " pixels, allowed: samples x pixels up to " +
-                         std::to_string(maximumBytes / 4));
+                         std::to_string(maximumBytes / 4) + " on this device");
     if (samples_.bytes() != bytes) samples_ = gpu::Buffer(*device_, "samples", bytes);
     samples_.clear();
     samples_.bindStorage(1);
@@ -62,8 +60,7 @@ void StochasticTransparency::draw(const Frame& frame, gpu::Layer& layer) {
     gpu::Program& depths = quads_->begin(*depths_, frame.view);
     depths.set("pictureWidth", layer.width());
     depths.set("key", glm::ivec3(static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32), 0));
-    quads_->add(depths, layer.sceneDepth());
-    gpu::makeWritesVisible();
+    quads_->store(depths, layer.sceneDepth());
 
     gpu::Program& colours = quads_->begin(*colours_, frame.view);
     colours.set("pictureWidth", layer.width());

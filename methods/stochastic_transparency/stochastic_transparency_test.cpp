@@ -7,7 +7,6 @@
 #include <cmath>
 #include <random>
 
-#include "methods/contract/errors.h"
 #include "methods/kit/maths/transmittance.h"
 #include "methods/kit/testing/test_moment.h"
 

@@ -60,8 +60,4 @@ void drawIndexed(const Program& program, const VertexArray& vertices, const Draw
     finish(state, "indexed draw");
 }
 
-void makeWritesVisible() {
-    glMemoryBarrier(GL_ALL_BARRIER_BITS);
-}
-
 }  // namespace dustbench::gpu

@@ -27,7 +27,4 @@ DUSTBENCH_API void draw(const Program& program, const VertexArray& vertices, con
 DUSTBENCH_API void drawIndexed(const Program& program, const VertexArray& vertices, const DrawState& state,
                                Primitives primitives, int indexCount, int instances = 1);
 
-/// Makes what shaders wrote to buffers visible to subsequent commands.
-DUSTBENCH_API void makeWritesVisible();
-
 }  // namespace dustbench::gpu
