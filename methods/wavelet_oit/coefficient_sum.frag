@@ -20,7 +20,8 @@ void main() {
     Part part = partOf(puff, seen, mappingAt(pixel));
 
     float integral[COUNT + 1], sums[COUNT];
-    for (int i = 0; i <= COUNT; ++i) integral[i] = integralTo(part, float(i) / float(COUNT));
+    integral[0] = integralTo(part, 0.0);  // 33 rounds are too many for some compilers to unroll
+    for (int i = 1; i <= COUNT; ++i) integral[i] = integralTo(part, float(i) / float(COUNT));
     sums[0] = integral[COUNT] - integral[0];
     for (int j = 0; j <= RANK; ++j)
         for (int k = 0; k < 1 << j; ++k) {

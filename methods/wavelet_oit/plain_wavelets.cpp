@@ -64,7 +64,7 @@ double meanOver(std::span<const double> coefficients, std::size_t cell) {
 
 double depthBefore(std::span<const double> coefficients, const Part& own) {
     const std::size_t count = coefficients.size();
-    const double place = own.at * static_cast<double>(count) + (own.width > 0 ? 0.5 : 0);
+    const double n = static_cast<double>(count), place = std::min(own.at * n + (own.width > 0 ? 0.5 : 0), n);
     const std::size_t cell = std::min(static_cast<std::size_t>(place), count - 1);
     const double near = cell == 0 ? 0 : meanOver(coefficients, cell - 1) - ownMeanOver(own, cell - 1, count);
     const double far = meanOver(coefficients, cell) - ownMeanOver(own, cell, count);

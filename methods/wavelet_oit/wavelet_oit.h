@@ -1,12 +1,12 @@
 // Wavelet transparency: two passes add up puffs in any order. The first sums the coefficients of Haar wavelets of the
 // optical depth along each pixel's ray, the second weights each puff's colour with the transmittance in front of it.
 //
-// Targets with additive blending take the sums: no atomics on floats, which OpenGL 4.5 lacks, and every driver adds in
-// the order of the puffs, so that the picture is the same each time.
+// Targets with additive blending take the sums. OpenGL 4.5 lacks atomics on floats, and blending adds in the order of
+// the puffs, so that the picture is the same each time.
 //
 // Units: metres. Colours: linear RGB, premultiplied.
-// Source: AizenshteinEtAl2022, by its abstract and by Osorio2024, which describes an implementation; the paper's text
-// was not at hand. Departs: no refraction. A puff's own part is taken off in closed form instead of per coefficient.
+// Source: AizenshteinEtAl2022, by its abstract and by open-source shaders after Osorio2024; neither text was at hand.
+// Departs: no refraction. A puff's own part is taken off once in closed form instead of from each coefficient.
 // `puff=volume` uses the integral of a puff's extinction between eye and scene instead of a step. `packed` stores half
 // floats. α follows from a sum of depths in single precision.
 #pragma once

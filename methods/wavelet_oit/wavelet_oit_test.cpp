@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -300,7 +299,6 @@ TEST(WaveletOit, ErrsLessWithAHigherRankAndWithBoundsOfThePixel) {
         EXPECT_LT(of[4], 0.8 * of[3]);
     }
     for (const int rank : {2, 3, 4}) EXPECT_LT(error[Bounds::pixel][rank], error[Bounds::frame][rank]);
-    for (auto& [bounds, of] : error) std::cerr << "ERR " << of[2] << ' ' << of[3] << ' ' << of[4] << '\n';
 }
 
 TEST(WaveletOit, DrawsTheSamePictureInAnyOrderOfThePuffs) {
@@ -344,7 +342,6 @@ TEST(WaveletOit, PackedStaysWithinTheRoundingOfHalfFloats) {
                     largest = std::max(largest, difference);
                 }
             }
-        std::cerr << "HALF " << largest << "\n";
         EXPECT_LT(largest, 5e-3) << rank;
         EXPECT_GT(largest, 1e-6) << rank;  // otherwise nothing is packed
     }
@@ -378,7 +375,6 @@ TEST(WaveletOit, VolumesComeCloserThanSurfacesToPuffsThatIntersect) {
             volumeError += glm::length(glm::dvec3(volumes.at(x, y)) - exact);
             surfaceError += glm::length(glm::dvec3(surfaces.at(x, y)) - exact);
         }
-    std::cerr << "VOL " << volumeError << ' ' << surfaceError << '\n';
     EXPECT_LT(volumeError, 0.8 * surfaceError);
 }
 
