@@ -42,6 +42,7 @@ constexpr int frames = 2;
 const std::map<std::string, std::vector<std::string>> decidingValues{
     {"shadow_cells", {"0", "2"}},
     {"vorticity", {"0", "2"}},
+    {"rank", {"2", "4"}},
     {"scheme", {"ours"}},  // the demo needs a fixed box, see below
     {"at",
      {"0s:render.part=points", "0s:render.part=points;0s:render.round=on",
@@ -85,6 +86,8 @@ const std::vector<Product> products{
     {"offscreen_particles", {}, {"upsampling", "edges"}, true},
     {"stochastic_transparency", {}, {"puff", "stratified", "alpha_correction"}, true},
     {"moment_oit", {}, {"moments", "profile", "samples", "warp"}, true},
+    {"wavelet_oit", {}, {"puff", "warp", "bounds"}, true},
+    {"wavelet_oit", {}, {"rank"}, true},
 };
 
 std::vector<std::string> valuesOf(const Parameter& parameter) {
