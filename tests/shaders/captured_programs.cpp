@@ -83,6 +83,7 @@ const std::vector<Product> products{
     {"linked_list", {}, {"puff"}, true},
     {"multi_layer", {}, {"puff"}, true},
     {"weighted_oit", {}, {"weight"}, true},
+    {"weighted_oit", {}, {"puff", "accumulation", "revealage"}, true},
     {"offscreen_particles", {}, {"upsampling", "edges"}, true},
     {"stochastic_transparency", {}, {"puff", "stratified", "alpha_correction"}, true},
     {"moment_oit", {}, {"moments", "profile", "samples", "warp"}, true},
