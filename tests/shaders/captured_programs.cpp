@@ -81,6 +81,7 @@ const std::vector<Product> products{
     {"exact_tiles", {}, {}, true},
     {"linked_list", {}, {"puff"}, true},
     {"multi_layer", {}, {"puff"}, true},
+    {"adaptive_transparency", {}, {"puff"}, true},
     {"weighted_oit", {}, {"weight"}, true},
     {"offscreen_particles", {}, {"upsampling", "edges"}, true},
     {"stochastic_transparency", {}, {"puff", "stratified", "alpha_correction"}, true},
