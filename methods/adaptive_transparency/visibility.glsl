@@ -8,12 +8,13 @@ struct Node {
     float depth;          // dᵢ
     float transmittance;  // tᵢ, behind the node
 };
-/// An unused node lies behind all fragments and has the transmittance of all of them. The last is used only in `insert`.
+/// An unused node lies behind all fragments and has the transmittance of all of them. `insert` uses one node more.
+/// No loop has more than 32 turns: drivers unroll those, and keep the nodes in registers.
 Node nodes[NODES + 1];
 const float unused = 1e30;
 
 void clearVisibility() {
-    for (int i = 0; i <= NODES; ++i) nodes[i] = Node(unused, 1.0);
+    for (int i = 0; i < NODES; ++i) nodes[i] = Node(unused, 1.0);
 }
 
 /// Removes the node whose removal changes the area under the function least. Its step then is at the node before it, so
@@ -36,13 +37,12 @@ void removeNode() {
         if (i >= least - 1) nodes[i].transmittance = nodes[i + 1].transmittance;
         if (i >= least) nodes[i].depth = nodes[i + 1].depth;
     }
-    nodes[NODES].depth = unused;
 }
 
 /// Multiplies the function behind `depth` by the fragment's transmittance.
 void insert(float depth, float transmittance) {
     Node carried = Node(depth, transmittance);  // the fragment's node, then the nodes behind it, to their new places
-    for (int i = 0; i <= NODES; ++i) {
+    for (int i = 0; i < NODES; ++i) {
         Node node = nodes[i];
         if (node.depth < depth) {
             carried.transmittance = node.transmittance * transmittance;
@@ -51,7 +51,8 @@ void insert(float depth, float transmittance) {
             carried = Node(node.depth, node.transmittance * transmittance);
         }
     }
-    if (nodes[NODES].depth < unused) removeNode();
+    nodes[NODES] = carried;
+    if (carried.depth < unused) removeNode();
 }
 
 float visibilityAt(float depth) {
