@@ -82,6 +82,7 @@ const std::vector<Product> products{
     {"exact_tiles", {}, {}, true},
     {"linked_list", {}, {"puff"}, true},
     {"multi_layer", {}, {"puff"}, true},
+    {"adaptive_transparency", {}, {"puff"}, true},
     {"weighted_oit", {}, {"weight"}, true},
     {"weighted_oit", {}, {"puff", "accumulation", "revealage"}, true},
     {"offscreen_particles", {}, {"upsampling", "edges"}, true},
