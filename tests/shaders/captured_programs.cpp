@@ -85,6 +85,7 @@ const std::vector<Product> products{
     {"offscreen_particles", {}, {"upsampling", "edges"}, true},
     {"stochastic_transparency", {}, {"puff", "stratified", "alpha_correction"}, true},
     {"moment_oit", {}, {"moments", "profile", "samples", "warp"}, true},
+    {"moment_oit", {}, {"moments", "basis", "precision", "puff"}, true},
 };
 
 std::vector<std::string> valuesOf(const Parameter& parameter) {
