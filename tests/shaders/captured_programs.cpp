@@ -90,6 +90,7 @@ const std::vector<Product> products{
     {"moment_oit", {}, {"moments", "profile", "samples", "warp"}, true},
     {"wavelet_oit", {}, {"puff", "warp", "bounds"}, true},
     {"wavelet_oit", {}, {"rank"}, true},
+    {"moment_oit", {}, {"moments", "basis", "precision", "puff"}, true},
 };
 
 std::vector<std::string> valuesOf(const Parameter& parameter) {
