@@ -122,7 +122,7 @@ TEST(MomentKind, HalfAsManySurfacesAsNumbersAreExact) {
 }
 
 /// Mean of |T − exact| halfway between 12 surfaces, over 100 rays.
-double meanError(const Kind& kind, double bias) {
+double meanErrorOfSurfaces(const Kind& kind, double bias) {
     std::mt19937 random(5);
     double sum = 0;
     int samples = 0;
@@ -141,9 +141,9 @@ TEST(MomentKind, ErrsLessWithMoreNumbersAndLittleMoreInSixteenBits) {
         double before = 1;
         for (const int count : {4, 6, 8}) {
             const Kind kind{basis, Precision::single, count}, rounded{basis, Precision::quantised, count};
-            const double error = meanError(kind, biasOf(kind));
+            const double error = meanErrorOfSurfaces(kind, biasOf(kind));
             EXPECT_LT(error, 0.85 * before) << label(kind);
-            EXPECT_NEAR(meanError(rounded, biasOf(rounded)), error, 0.04 * error) << label(kind);
+            EXPECT_NEAR(meanErrorOfSurfaces(rounded, biasOf(rounded)), error, 0.04 * error) << label(kind);
             before = error;
         }
         EXPECT_LT(before, 0.04) << static_cast<int>(basis);
@@ -154,7 +154,8 @@ TEST(MomentKind, ErrsLessWithMoreNumbersAndLittleMoreInSixteenBits) {
 TEST(MomentKind, BothBasesErrAlike) {
     for (const int count : {4, 6, 8}) {
         const Kind power{.count = count}, circle{.basis = Basis::trigonometric, .count = count};
-        const double one = meanError(power, biasOf(power)), other = meanError(circle, biasOf(circle));
+        const double one = meanErrorOfSurfaces(power, biasOf(power)),
+                     other = meanErrorOfSurfaces(circle, biasOf(circle));
         EXPECT_LT(other, 1.7 * one) << count;
         EXPECT_LT(one, 1.7 * other) << count;
     }

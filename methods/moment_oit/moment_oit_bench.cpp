@@ -55,6 +55,14 @@ void settings(benchmark::internal::Benchmark* benchmark) {
 BENCHMARK_CAPTURE(frame, four, {.kind = {.count = 4}})->Apply(settings);
 BENCHMARK_CAPTURE(frame, six, {.kind = {.count = 6}})->Apply(settings);
 BENCHMARK_CAPTURE(frame, six_of_points, {.kind = {.count = 6}, .shape = Shape::point})->Apply(settings);
+BENCHMARK_CAPTURE(frame, six_of_surfaces, {.puff = Puff::surface})->Apply(settings);
+BENCHMARK_CAPTURE(frame, eight_of_surfaces, {.kind = {.count = 8}, .puff = Puff::surface})->Apply(settings);
+BENCHMARK_CAPTURE(frame, six_trigonometric_of_surfaces,
+                  {.kind = {.basis = Basis::trigonometric}, .puff = Puff::surface})
+    ->Apply(settings);
+BENCHMARK_CAPTURE(frame, six_quantised_of_surfaces,
+                  {.kind = {.precision = Precision::quantised}, .puff = Puff::surface})
+    ->Apply(settings);
 BENCHMARK_CAPTURE(frame, six_three_samples, {.kind = {.count = 6}, .samples = 3})->Apply(settings);
 
 }  // namespace
