@@ -21,7 +21,6 @@
 #include "bench/view/window/window_output.h"
 #include "bench/view/window_settings.h"
 #include "methods/contract/errors.h"
-#include "methods/kit/files/loaded_library.h"
 
 namespace dustbench::bench {
 namespace {
@@ -42,7 +41,7 @@ InputError cannotOpen() {
 /// The portable program is not linked with GLFW, which needs the host's X11 libraries; the other commands run without
 /// them. Its calls of GLFW find the library once it is loaded.
 void loadGlfw() {
-    if (!dlopen(files::besideKit("libglfw.so.3").c_str(), RTLD_LAZY | RTLD_GLOBAL))
+    if (!dlopen("libglfw.so.3", RTLD_LAZY | RTLD_GLOBAL))
         throw InputError(std::string("view: a library is missing on this machine: ") + dlerror());
 }
 #else
