@@ -113,8 +113,13 @@ void PluginParticles::makePicture(System& system) {
     std::string shownAs = part ? part->name() : "puff";
     if (part)
         for (const auto& [name, value] : part->values().canonical()) shownAs.append(" " + name + "=" + value);
+    particles::Look look = part ? part->look() : particles::Look();
+    const particles::PositionPart* position = system.particles.parts().position();
+    if (look.primitive == particles::Primitive::surface) {
+        look.lattice = *position->lattice();
+        for (const auto& [name, value] : position->values().canonical()) shownAs.append(" " + name + "=" + value);
+    }
     if (shownAs == system.shownAs) return;
-    const particles::Look look = part ? part->look() : particles::Look();
     system.picture = std::make_unique<SystemPicture>(*device_, look, scene_->lights);
     system.shownAs = std::move(shownAs);
 }

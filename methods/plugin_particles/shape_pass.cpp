@@ -14,6 +14,8 @@ std::unique_ptr<ShapePass> makePass(gpu::Device& device, const particles::Look& 
             return makeHybridPass(device, look);
         case particles::Primitive::objects:
             return makeObjectPass(device, look, lights);
+        case particles::Primitive::surface:
+            return makeSurfacePass(device, look, lights);
         case particles::Primitive::puff:
         case particles::Primitive::sprites:
         case particles::Primitive::movingSprites:

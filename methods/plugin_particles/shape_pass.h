@@ -54,6 +54,8 @@ class ShapePass {
 [[nodiscard]] std::unique_ptr<ShapePass> makeSpritePass(gpu::Device& device, const particles::Look& look);
 [[nodiscard]] std::unique_ptr<ShapePass> makeObjectPass(gpu::Device& device, const particles::Look& look,
                                                         const scene::Lights& lights);
+[[nodiscard]] std::unique_ptr<ShapePass> makeSurfacePass(gpu::Device& device, const particles::Look& look,
+                                                         const scene::Lights& lights);
 
 /// Calls `put(value, i)` for each particle `i` in drawing order; `value` points to the particle's floats in the buffer.
 template <typename Put>

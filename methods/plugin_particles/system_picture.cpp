@@ -24,7 +24,7 @@ SystemPicture::SystemPicture(gpu::Device& device, const particles::Look& look, c
 void SystemPicture::upload(const Moment& moment, const StageClock& clock) {
     const Puffs& puffs = moment.puffs;
     std::span<const std::uint32_t> order;
-    if (!isAdditive() && look_.primitive != particles::Primitive::objects) {
+    if (!isAdditive() && !particles::isMesh(look_.primitive)) {
         const auto timing = clock.measure(Stage::sort);
         order = sort_.farToNear(draw::SortKind::radix, {puffs.x, puffs.y, puffs.z}, moment.eye);
     }

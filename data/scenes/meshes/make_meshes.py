@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the solids of this folder, one in each format that is read. Python 3, standard library only: `python3 make_meshes.py`.
 
-rock.obj, sphere.obj, bellows.obj and bellows_full.obj (no normals: they are computed), crate.ply, wall.ply, paddle.ply and
+rock.obj, sphere.obj, dart.obj, bellows.obj and bellows_full.obj (no normals: they are computed), crate.ply, wall.ply, paddle.ply and
 paddle_stand.ply (vertex colours), marker_post.stl (binary). Metres, +Y up, on y = 0 but for sphere and paddle, which have their
 middle at the origin.
 """
@@ -258,8 +258,23 @@ def marker_post():
             file.write(struct.pack("<12fH", *(n / length for n in normal), *a, *b, *c, 0))
 
 
+def dart():
+    """A folded paper plane, nose along +X: two wings and a keel. Wings are drawn from both sides."""
+    nose, left, right, keel = (1.0, 0.0, 0.0), (-0.6, 0.12, -0.55), (-0.6, 0.12, 0.55), (-0.6, -0.15, 0.0)
+    back = (-0.45, 0.0, 0.0)
+    faces = [(nose, back, left), (nose, right, back), (nose, keel, back)]
+    with open(path("dart.obj"), "w") as file:
+        file.write("# dart: metres, nose along +X, written by make_meshes.py\n")
+        for face in faces:
+            for corner in face:
+                file.write("v {:.4f} {:.4f} {:.4f}\n".format(*corner))
+        for i in range(len(faces)):
+            file.write(f"f {3 * i + 1} {3 * i + 2} {3 * i + 3}\n")
+
+
 rock()
 sphere()
+dart()
 bellows()
 crate()
 wall()

@@ -24,6 +24,12 @@ class DUSTBENCH_API MeshInstances {
     /// `alongVelocity`: the mesh's x axis follows the velocity; otherwise all keep the mesh's own orientation.
     MeshInstances(gpu::Device& device, const scene::Mesh& mesh, const scene::Lights& lights, bool alongVelocity);
 
+    /// Replaces the mesh by one with the same triangles.
+    void reshape(const scene::Mesh& mesh) { mesh_.reshape(mesh); }
+    /// Of the mesh's bounding sphere.
+    [[nodiscard]] glm::vec3 centre() const { return mesh_.centre(); }
+    [[nodiscard]] float radiusMetres() const { return mesh_.radiusMetres(); }
+
     /// x y z radius opacity velocity (3) red green blue
     static constexpr std::size_t floats = 11;
     /// GPU memory for `count` meshes; write-only; fill it, then call `unmap`.

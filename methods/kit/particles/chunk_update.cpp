@@ -74,25 +74,12 @@ void drift(Chunk& chunk) {
     meetSurfaces(chunk, begins, surfaces);
 }
 
-}  // namespace
-
-void ChunkScratch::lend(Chunk& chunk, bool shaded) {
-    std::size_t next = 0;
-    for (float** column : {&chunk.share, &chunk.accelerationX, &chunk.accelerationY, &chunk.accelerationZ, &chunk.airX,
-                           &chunk.airY, &chunk.airZ})
-        *column = values[next++].data();
-    if (shaded)
-        for (float** column : {&chunk.luminosityRed, &chunk.luminosityGreen, &chunk.luminosityBlue})
-            *column = values[next++].data();
-    chunk.dead = dead.data();
-}
-
-void updateChunk(Chunk& chunk, const PartList& parts, const MetSurfaces& surfaces, const Step& step) {
+/// Everything before the integration.
+void drive(Chunk& chunk, const PartList& parts, const Step& step) {
     const std::size_t count = chunk.count;
-    const float seconds = static_cast<float>(step.seconds);
     clear(count, {chunk.accelerationX, chunk.accelerationY, chunk.accelerationZ, chunk.airX, chunk.airY, chunk.airZ});
 
-    growOlder(count, chunk.age, seconds);
+    growOlder(count, chunk.age, static_cast<float>(step.seconds));
     shareOfLife(count, chunk.age, chunk.lifetime, chunk.share);
 
     std::fill_n(chunk.dead, count, std::uint8_t{0});
@@ -108,11 +95,34 @@ void updateChunk(Chunk& chunk, const PartList& parts, const MetSurfaces& surface
 
     for (const auto& part : parts.forces()) part->blow(chunk, step);
     for (const auto& part : parts.forces()) part->push(chunk, step);
+}
+
+}  // namespace
+
+void ChunkScratch::lend(Chunk& chunk, bool shaded) {
+    std::size_t next = 0;
+    for (float** column : {&chunk.share, &chunk.accelerationX, &chunk.accelerationY, &chunk.accelerationZ, &chunk.airX,
+                           &chunk.airY, &chunk.airZ})
+        *column = values[next++].data();
+    if (shaded)
+        for (float** column : {&chunk.luminosityRed, &chunk.luminosityGreen, &chunk.luminosityBlue})
+            *column = values[next++].data();
+    chunk.dead = dead.data();
+}
+
+void updateChunk(Chunk& chunk, const PartList& parts, const MetSurfaces& surfaces, const Step& step) {
+    drive(chunk, parts, step);
+    const float seconds = static_cast<float>(step.seconds);
     if (surfaces.empty())
         move(chunk, seconds);
     else
         moveAmong(surfaces, chunk, seconds);
     for (const auto& part : parts.forces()) part->touch(chunk, step);
+}
+
+void advanceChunk(Chunk& chunk, const PartList& parts, const Step& step) {
+    drive(chunk, parts, step);
+    move(chunk, static_cast<float>(step.seconds));
 }
 
 void initialiseNewborns(Newborns& newborns, const PartList& parts, const MetSurfaces& surfaces, const Step& step) {

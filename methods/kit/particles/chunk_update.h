@@ -27,6 +27,9 @@ struct alignas(64) ChunkScratch {
 /// `surfaces`: the surfaces of `parts`.
 void updateChunk(Chunk& chunk, const PartList& parts, const MetSurfaces& surfaces, const Step& step);
 
+/// The same without surfaces, and without `touch`, for systems in which a force then settles particles.
+void advanceChunk(Chunk& chunk, const PartList& parts, const Step& step);
+
 /// Sets position, velocity, lifetime, colour and size of newborns whose serial, age and moment are set.
 void initialiseNewborns(Newborns& newborns, const PartList& parts, const MetSurfaces& surfaces, const Step& step);
 

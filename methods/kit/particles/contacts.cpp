@@ -44,12 +44,14 @@ void meetAll(const Ways& ways, const MetSurfaces& surfaces, float* share, float*
 struct Way {
     glm::vec3 from, to, velocity;
     float seconds;
+    float leftSeconds;
     bool dead = false;
 };
 
 /// The first contact on the rest of a path, or none; `by` receives the surface.
 float meetNext(const Way& way, const MetSurfaces& surfaces, std::uint8_t* by) {
-    const Ways one{1, &way.from.x, &way.from.y, &way.from.z, &way.to.x, &way.to.y, &way.to.z, &way.seconds};
+    const Ways one{1,         &way.from.x, &way.from.y,  &way.from.z,    &way.to.x,
+                   &way.to.y, &way.to.z,   &way.seconds, way.leftSeconds};
     float scratch, share;
     meetAll(one, surfaces, &scratch, &share, by);
     return share;
@@ -57,7 +59,7 @@ float meetNext(const Way& way, const MetSurfaces& surfaces, std::uint8_t* by) {
 
 /// Moves to the contact at `share` of the path, where the rest of the path starts.
 Touch goTo(Way& way, float share, const Surface& surface) {
-    const Touch touch = surface.touchAt({way.from, way.to, way.seconds, share});
+    const Touch touch = surface.touchAt({way.from, way.to, way.seconds, share, way.leftSeconds});
     way.from = touch.point + clearance(way.from, way.to, surface.extentMetres()) * touch.normal;
     way.seconds *= 1 - share;
     way.to = way.from;
@@ -110,16 +112,26 @@ MetSurfaces::MetSurfaces(const PartList& parts) {
     for (const auto& life : parts.lives()) add(life->surface(), {.kills = true});
 }
 
-void meetSurfaces(Chunk& chunk, const WayBegins& begins, const MetSurfaces& surfaces) {
+MetSurfaces MetSurfaces::perPartOf(int parts) const {
+    MetSurfaces shared = *this;
+    for (MetSurface& met : std::span(shared.surfaces_.data(), shared.count_))
+        met.contact.friction = 1 - std::pow(1 - met.contact.friction, 1.0f / static_cast<float>(parts));
+    return shared;
+}
+
+void meetSurfaces(Chunk& chunk, const WayBegins& begins, const MetSurfaces& surfaces, float leftSeconds) {
     alignas(64) std::array<float, chunkSize> share, first;
     alignas(64) std::array<std::uint8_t, chunkSize> by;
-    const Ways ways{chunk.count, begins.x.data(), begins.y.data(), begins.z.data(),
-                    chunk.x,     chunk.y,         chunk.z,         begins.seconds.data()};
+    const Ways ways{chunk.count, begins.x.data(), begins.y.data(),       begins.z.data(), chunk.x,
+                    chunk.y,     chunk.z,         begins.seconds.data(), leftSeconds};
     meetAll(ways, surfaces, share.data(), first.data(), by.data());
     for (std::size_t i = 0; i < chunk.count; ++i) {
         if (first[i] > 1) continue;
-        Way way{
-            ways.from(i), ways.to(i), {chunk.velocityX[i], chunk.velocityY[i], chunk.velocityZ[i]}, begins.seconds[i]};
+        Way way{ways.from(i),
+                ways.to(i),
+                {chunk.velocityX[i], chunk.velocityY[i], chunk.velocityZ[i]},
+                begins.seconds[i],
+                leftSeconds};
         follow(way, first[i], by[i], surfaces);
         chunk.x[i] = way.to.x, chunk.y[i] = way.to.y, chunk.z[i] = way.to.z;
         chunk.velocityX[i] = way.velocity.x, chunk.velocityY[i] = way.velocity.y, chunk.velocityZ[i] = way.velocity.z;

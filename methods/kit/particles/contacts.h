@@ -33,6 +33,8 @@ class MetSurfaces {
     explicit MetSurfaces(const PartList& parts);
     [[nodiscard]] std::span<const MetSurface> all() const { return {surfaces_.data(), count_}; }
     [[nodiscard]] bool empty() const { return count_ == 0; }
+    /// For steps in several parts: contacts in all of them together have the friction of one.
+    [[nodiscard]] MetSurfaces perPartOf(int parts) const;
 
  private:
     static constexpr std::size_t maximum = 32;
@@ -44,6 +46,7 @@ class MetSurfaces {
 inline constexpr int maximumContacts = 8;
 
 /// Resolves contacts. On entry, the chunk has the positions that the particles would reach without contacts.
-void meetSurfaces(Chunk& chunk, const WayBegins& begins, const MetSurfaces& surfaces);
+/// `leftSeconds`: from the end of their paths to the end of the step.
+void meetSurfaces(Chunk& chunk, const WayBegins& begins, const MetSurfaces& surfaces, float leftSeconds = 0);
 
 }  // namespace dustbench::particles

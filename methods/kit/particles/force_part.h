@@ -1,7 +1,8 @@
 // The kind of part that moves particles: through moving air, by acceleration, or by contact.
 //
 // In each step all forces first `blow`, then all `push`. The particles move, as far as surfaces allow; then all forces
-// `touch`. The order of the list therefore matters only among forces of the same type. Source: Thesis, 3.1.3 and 5.1.
+// `touch`. One force may `settle` particles that depend on each other before that. The order of the list therefore
+// matters only among forces of the same type. Source: Thesis, 3.1.3 and 5.1.
 #pragma once
 
 #include "methods/kit/particles/chunk.h"
@@ -11,7 +12,14 @@
 
 namespace dustbench::particles {
 
+class MetSurfaces;
 class ParticleStore;
+
+/// Positions and velocities at the start of a step, in the order of the store.
+struct StepStart {
+    std::span<const float> x, y, z;
+    std::span<const float> velocityX, velocityY, velocityZ;
+};
 
 class ForcePart : public Part {
  public:
@@ -27,6 +35,11 @@ class ForcePart : public Part {
     virtual void push(Chunk&, const Step&) const {}
     /// Corrects position and velocity of particles that have moved through a surface; the old position is x − v·dt.
     virtual void touch(Chunk&, const Step&) const {}
+
+    /// True: after all particles have moved as if there were no surfaces, `settle` determines where they end, from the
+    /// start of the step, without passing surfaces. A system has at most one such part.
+    [[nodiscard]] virtual bool settles() const { return false; }
+    virtual void settle(ParticleStore&, const StepStart&, const MetSurfaces&, const Step&) {}
 
     /// The surface that particles cannot pass, applied between `push` and `touch`; null: none.
     [[nodiscard]] virtual const Surface* surface() const { return nullptr; }

@@ -8,7 +8,7 @@ namespace dustbench::particles {
 namespace {
 
 /// The values of test::everyForce, and the defaults of its parts.
-const PlainDustSettings everyForce{.birthsPerSecond = 30,
+const PlainDustSettings dustForces{.birthsPerSecond = 30,
                                    .birthsPerMetre = 25,
                                    .discMetres = 0.2f,
                                    .direction = {-0.5f, 0.8f, 0.1f},
@@ -34,7 +34,7 @@ const PlainDustSettings everyForce{.birthsPerSecond = 30,
 TEST(ParticleSystem, MovesParticlesAsThePlainDustDoes) {
     const auto scene = test::sceneWithCar();
     auto system = test::systemFrom(test::everyForce);
-    PlainDust plain(everyForce, scene);
+    PlainDust plain(dustForces, scene);
     std::size_t compared = 0;
     for (int i = 1; i <= 200; ++i) {
         const auto state = test::drivingStraight(i / 60.0, 18);

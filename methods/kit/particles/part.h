@@ -42,6 +42,9 @@ class DUSTBENCH_API Part {
     void setName(std::string name) { name_ = std::move(name); }
     [[nodiscard]] const ParameterValues& values() const { return values_; }
 
+    /// True: the part works only with a position that is a lattice (PositionPart::lattice).
+    [[nodiscard]] virtual bool needsLattice() const { return false; }
+
     /// Continues from `before`, which this part replaces in a running system. A part whose state persists between steps
     /// (an accumulator) copies the state of a part of the same class.
     virtual void takeOver(const Part& /*before*/) {}

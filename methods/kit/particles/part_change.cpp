@@ -106,7 +106,9 @@ void changeSingle(PartList& parts, PartKind kind, std::string_view key, std::str
 void changePart(PartList& parts, std::string_view name, std::string_view value) {
     std::string_view rest = name;
     const PartKind kind = kindOf(cutFirst(rest));
+    const bool complete = parts.missing().empty();
     isList(kind) ? changeList(parts, kind, rest, value) : changeSingle(parts, kind, rest, value);
+    if (const std::string missing = parts.missing(); complete && !missing.empty()) throw InputError(missing);
 }
 
 void scaleSizes(PartList& parts, double factor) {

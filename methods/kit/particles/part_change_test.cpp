@@ -102,6 +102,7 @@ TEST(PartChange, SwapsAnyPartForAnyOtherOfItsKind) {
             const std::string place = from.kind == PartKind::life ? "life.1.part" : kind + ".part";
             const bool givesLifetimes = from.name == "lifetime" && to.name == "lifetime";
             if (from.kind == PartKind::life && !givesLifetimes) continue;
+            for (const PartInfo& info : {from, to}) test::giveLattice(system.parts(), info);
             changePart(system.parts(), place, from.name);
             test::advance(system, scene, 20, 20, 2000);
             const std::size_t before = system.store().size();

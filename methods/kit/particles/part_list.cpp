@@ -111,6 +111,12 @@ std::string PartList::missing() const {
     const auto lifetimes = std::ranges::count_if(lives_, givesLifetimes);
     if (lifetimes == 0) return "no part of kind 'life' that sets lifetimes ('lifetime')";
     if (lifetimes > 1) return "more than one part of kind 'life' that sets lifetimes";
+    const auto settling = std::ranges::count_if(forces_, [](const auto& force) { return force->settles(); });
+    if (settling > 1) return "more than one part of kind 'force' that sets positions, such as 'springs'";
+    for (const Part* part : all())
+        if (part->needsLattice() && !position_->lattice())
+            return std::string(kindName(part->kind())) + " '" + part->name() + "': got the position '" +
+                   position_->name() + "', allowed: 'lattice'";
     return {};
 }
 

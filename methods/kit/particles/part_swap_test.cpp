@@ -24,6 +24,7 @@ void put(PartList& parts, PartKind kind, const std::string& name) {
     NamedValues values;
     // The exact sum over 10,000 particles is slow, and this test only swaps.
     if (name == "interaction") values.emplace_back("opening_angle", "1.5");
+    test::giveLattice(parts, findPart(kind, name));
     parts.set(makePart(kind, name, values));
 }
 

@@ -49,6 +49,7 @@ TEST(PartToml, EveryPartOfTheTableSurvivesSavingAndLoading) {
     for (const PartInfo& info : partTable()) {
         auto parts = partsFromText(everyForce, "test.toml");
         if (info.name == "lifetime") parts->lives().clear();
+        test::giveLattice(*parts, info);
         parts->set(info.create(ParameterValues(info.parameters)));
         const std::string saved = partsToToml(*parts);
         EXPECT_THAT(saved, HasSubstr("part = \"" + info.name + "\""));
@@ -89,6 +90,7 @@ TEST(PartToml, KeysOfATableStandForAllParametersAndTheirDefaultsCanBeWrittenInAF
     for (const PartInfo& info : partTable()) {
         auto parts = partsFromText(everyForce, "test.toml");
         if (info.name == "lifetime") parts->lives().clear();
+        test::giveLattice(*parts, info);
         parts->set(info.create(ParameterValues(info.parameters)));
         const std::string toml = partsToToml(*parts);
         for (const Parameter& key : tableKeys(info.parameters))

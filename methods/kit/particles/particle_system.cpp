@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "methods/contract/errors.h"
@@ -21,6 +23,32 @@ namespace {
 
 constexpr std::size_t fewChunks = 4;  // with fewer chunks, a second thread is not worth it
 
+/// Copies of positions and velocities at the start of a step; empty unless a force settles particles.
+class LinkedStart {
+ public:
+    explicit LinkedStart(MemoryLedger& ledger) : ledger_(ledger) {}
+
+    void take(const ParticleStore& s) {
+        const std::array columns{&s.x, &s.y, &s.z, &s.velocityX, &s.velocityY, &s.velocityZ};
+        for (std::size_t c = 0; c < columns.size(); ++c) columns_[c].assign(columns[c]->begin(), columns[c]->end());
+    }
+    [[nodiscard]] StepStart all() const {
+        return {columns_[0], columns_[1], columns_[2], columns_[3], columns_[4], columns_[5]};
+    }
+
+ private:
+    using Column = LedgerVector<float>;
+    [[nodiscard]] Column column() const { return Column(ledger_.account("particle starts")); }
+
+    MemoryLedger& ledger_;
+    std::array<Column, 6> columns_{column(), column(), column(), column(), column(), column()};
+};
+
+ForcePart* settlingPart(const PartList& parts) {
+    const auto found = std::ranges::find_if(parts.forces(), [](const auto& force) { return force->settles(); });
+    return found == parts.forces().end() ? nullptr : found->get();
+}
+
 }  // namespace
 
 struct ParticleSystem::State {
@@ -30,6 +58,8 @@ struct ParticleSystem::State {
     /// again.
     void requireRoom(double particles);
     void live(const MetSurfaces& surfaces, const Step& step);
+    /// The same with a force that settles particles.
+    void liveLinked(ForcePart& settling, const MetSurfaces& surfaces, const Step& step);
     void bury(std::span<const std::uint32_t> holes);
     void giveBirth(const Births& births, std::span<const Emitter> emitters, std::span<const std::uint32_t> holes,
                    const MetSurfaces& surfaces, const Step& step);
@@ -42,6 +72,7 @@ struct ParticleSystem::State {
     MemoryLedger ledger;
     ParticleStore store{ledger};
     NotedParticles deaths{ledger};
+    std::optional<LinkedStart> start;  ///< only if a force settles particles
     LedgerVector<std::uint32_t> survivors{ledger.account("particle deaths")};
 };
 
@@ -70,6 +101,31 @@ void ParticleSystem::State::live(const MetSurfaces& surfaces, const Step& step) 
             deaths.note(first / chunkSize, chunk.dead, count);
         },
         fewChunks);
+}
+
+void ParticleSystem::State::liveLinked(ForcePart& settling, const MetSurfaces& surfaces, const Step& step) {
+    if (!start) start.emplace(ledger);
+    start->take(store);
+    deaths.prepare(store.size());
+    std::vector<std::uint8_t> dead(store.size());
+    const auto forEachChunk = [&](const auto& work) {
+        parallel::forEachBlock(
+            store.size(), chunkSize,
+            [&](std::size_t first, std::size_t count) {
+                ChunkScratch scratch;
+                Chunk chunk = store.chunk(first, count);
+                scratch.lend(chunk, !parts->shadings().empty());
+                chunk.dead = &dead[first];
+                work(chunk);
+            },
+            fewChunks);
+    };
+    forEachChunk([&](Chunk& chunk) { advanceChunk(chunk, *parts, step); });
+    settling.settle(store, start->all(), surfaces, step);
+    forEachChunk([&](Chunk& chunk) {
+        for (const auto& force : parts->forces()) force->touch(chunk, step);
+        deaths.note(chunk.first / chunkSize, chunk.dead, chunk.count);
+    });
 }
 
 /// Fills the holes (ascending) that no newborn has taken: the last survivors move into them, in order.
@@ -150,7 +206,8 @@ void ParticleSystem::update(const Surroundings& surroundings) {
                     s.seed,
                     fixedRate,
                     s.tracker.follow(surroundings.scene, surroundings.state, surroundings.stepSeconds),
-                    surroundings.particlesPerPuff};
+                    surroundings.particlesPerPuff,
+                    parts.position()->lattice()};
 
     const auto oneColour = parts.colour()->colourOfAll(step);
     if (oneColour) s.store.colourOfAll = *oneColour;
@@ -159,7 +216,10 @@ void ParticleSystem::update(const Surroundings& surroundings) {
     for (const auto& force : s.parts->forces()) force->begin(step, s.store);
     for (const auto& life : s.parts->lives()) life->begin(step);
     const MetSurfaces surfaces(parts);
-    s.live(surfaces, step);
+    if (ForcePart* settling = settlingPart(parts))
+        s.liveLinked(*settling, surfaces, step);
+    else
+        s.live(surfaces, step);
     const auto holes = s.deaths.collect();
     const auto emitters = parts.position()->emitters(step);
     const Births births = emitters.empty() ? Births{} : parts.emission()->births(step);

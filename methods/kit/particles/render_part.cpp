@@ -15,7 +15,7 @@ void RenderPart::declareStereo(ParameterSet& set) {
 Look RenderPart::lookOf(Primitive primitive) const {
     Look look;
     look.primitive = primitive;
-    if (primitive != Primitive::objects) {
+    if (!isMesh(primitive)) {
         look.blending = values().choice("blend", blendings);
         look.clamped = values().boolean("clamped");
     }

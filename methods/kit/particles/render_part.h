@@ -6,12 +6,18 @@
 #include <string>
 
 #include "methods/contract/choices.h"
+#include "methods/kit/particles/lattice.h"
 #include "methods/kit/particles/part.h"
 
 namespace dustbench::particles {
 
 /// The shapes that a file can request.
-enum class Primitive { puff, points, lines, curves, hybrid, sprites, movingSprites, objects };
+enum class Primitive { puff, points, lines, curves, hybrid, sprites, movingSprites, objects, surface };
+
+/// Meshes hide each other by depth; other primitives are blended.
+[[nodiscard]] constexpr bool isMesh(Primitive primitive) {
+    return primitive == Primitive::objects || primitive == Primitive::surface;
+}
 
 enum class Blending {
     alpha,     ///< C = α·C_particle + (1 − α)·C, sorted far to near
@@ -42,6 +48,9 @@ struct Look {
     bool fading = false;  ///< newer copies have more weight
     std::string mesh{};   ///< for objects: a name in data/scenes/meshes or a file
     bool alongVelocity = false;
+    int squares = 0;       ///< for a surface: points along each square of a chequered one; 0: one colour
+    float darkShare = 1;   ///< for a surface: brightness of every second square
+    Lattice lattice{};     ///< for a surface: that of the position part, set by the method
     bool stereo = false;   ///< for red-green glasses, the left eye green
     float eyesMetres = 0;  ///< distance of the two eyes
 };
@@ -69,13 +78,14 @@ class LookPart final : public RenderPart {
         Traits::complete(look_, values);
     }
     [[nodiscard]] Look look() const override { return look_; }
+    [[nodiscard]] bool needsLattice() const override { return Traits::primitive == Primitive::surface; }
 
     [[nodiscard]] static PartInfo describe(std::string help, std::string source, Blending initial) {
         PartInfo info;
         info.help = std::move(help);
         info.source = std::move(source);
         Traits::declare(info.parameters);
-        if (Traits::primitive != Primitive::objects) declareBlending(info.parameters, initial);
+        if (!isMesh(Traits::primitive)) declareBlending(info.parameters, initial);
         declareStereo(info.parameters);
         info.create = [](const ParameterValues& values) { return std::make_unique<LookPart>(values); };
         return info;

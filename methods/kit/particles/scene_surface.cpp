@@ -89,10 +89,12 @@ void SceneSurface::Carried::moveTo(const glm::dmat4& toWorld, const glm::dvec3& 
 }
 
 SceneSurface::LocalWay SceneSurface::Carried::toLocal(const Meeting& way) const {
-    LocalWay seen{frame.toLocal(way.from, way.seconds), frame.toLocal(way.to, 0)};
+    const float before = way.leftSeconds + way.seconds;
+    LocalWay seen{frame.toLocal(way.from, before), frame.toLocal(way.to, way.leftSeconds)};
     if (!deformation) return seen;
-    seen.deforming = deformation->velocityNear(seen.from, way.seconds, glm::distance(seen.from, seen.to));
-    seen.from += way.seconds * seen.deforming;
+    seen.deforming = deformation->velocityNear(seen.from, before, glm::distance(seen.from, seen.to));
+    seen.from += before * seen.deforming;
+    if (way.leftSeconds > 0) seen.to += way.leftSeconds * seen.deforming;
     return seen;
 }
 
@@ -237,7 +239,7 @@ void SceneSurface::meet(const Ways& ways, float* share) const {
     for (std::size_t i = 0; i < ways.count; ++i) {
         const glm::vec3 from = ways.from(i), to = ways.to(i);
         if (solidsBox_.meets(from, to) || carriedBox_.meets(from, to))
-            share[i] = find({from, to, ways.seconds[i], none}, share[i]).share;
+            share[i] = find({from, to, ways.seconds[i], none, ways.leftSeconds}, share[i]).share;
     }
 }
 
@@ -251,7 +253,7 @@ Touch SceneSurface::touchAt(const Meeting& way) const {
     const CarriedFrame& frame = found.carried->frame;
     const LocalWay localWay = found.carried->toLocal(way);
     const glm::vec3 local = localWay.at(way.share);
-    const float left = way.seconds * (1 - way.share);
+    const float left = way.leftSeconds + way.seconds * (1 - way.share);
     const glm::vec3 turning = glm::cross(found.carried->spin, local);
     const glm::vec3 ofFrame =
         frame.velocityOf(local) +

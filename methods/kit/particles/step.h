@@ -11,6 +11,8 @@
 
 namespace dustbench::particles {
 
+struct Lattice;
+
 /// A possible birthplace: a point that moves along a line during the step, with axes.
 struct Emitter {
     glm::vec3 from{0}, to{0};                  ///< at the start and the end of the step
@@ -32,6 +34,7 @@ struct Step {
     double fixedRatePerSecond;          ///< above 0: births per second, overriding the emission's rate
     std::span<const Emitter> wheels;    ///< empty without a vehicle
     std::int64_t particlesPerPuff = 1;  ///< factor on the number of births, at any rate
+    const Lattice* lattice = nullptr;   ///< that the particles form; null: none
 };
 
 /// Each use of random numbers has its own stream, so that swapping one part leaves the other parts' numbers unchanged.

@@ -13,12 +13,13 @@
 
 namespace dustbench::particles {
 
-/// The straight paths of `count` particles, each until the end of the step.
+/// The straight paths of `count` particles, which end together: at the end of the step, or of a part of it.
 struct Ways {
     std::size_t count;
     const float *fromX, *fromY, *fromZ;
     const float *toX, *toY, *toZ;
-    const float* seconds;  ///< duration of each: it starts this long before the step's end
+    const float* seconds;   ///< duration of each
+    float leftSeconds = 0;  ///< from the end of all paths to the end of the step
 
     [[nodiscard]] glm::vec3 from(std::size_t i) const { return {fromX[i], fromY[i], fromZ[i]}; }
     [[nodiscard]] glm::vec3 to(std::size_t i) const { return {toX[i], toY[i], toZ[i]}; }
@@ -36,6 +37,7 @@ struct Meeting {
     glm::vec3 from, to;
     float seconds;
     float share;
+    float leftSeconds = 0;  ///< from the end of the path to the end of the step
 
     [[nodiscard]] glm::vec3 point() const { return from + share * (to - from); }
 };

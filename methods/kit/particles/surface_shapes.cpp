@@ -152,6 +152,10 @@ SurfaceNumbers surfaceNumbers(const ParameterValues& values) {
             static_cast<float>(values.real("radius_metres"))};
 }
 
+std::unique_ptr<Surface> makeBall(const glm::vec3& centre, float radiusMetres) {
+    return std::make_unique<Sphere>(SurfaceNumbers{SurfaceShape::sphere, centre, {0, 1, 0}, radiusMetres});
+}
+
 std::unique_ptr<Surface> makeSurface(const ParameterValues& values) {
     const SurfaceNumbers numbers = surfaceNumbers(values);
     switch (numbers.shape) {

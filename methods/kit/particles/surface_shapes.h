@@ -29,6 +29,8 @@ struct SurfaceNumbers {
 void declareSurface(ParameterSet& set);
 /// Throws InputError for a normal of zero length.
 [[nodiscard]] SurfaceNumbers surfaceNumbers(const ParameterValues& values);
+/// A ball, hit from outside only.
+[[nodiscard]] std::unique_ptr<Surface> makeBall(const glm::vec3& centre, float radiusMetres);
 /// Makes the surface. A half-space or a sphere is hit from outside only; particles inside may leave. A disc or a mesh
 /// is hit from both sides. Throws InputError if the mesh cannot be used.
 [[nodiscard]] std::unique_ptr<Surface> makeSurface(const ParameterValues& values);

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "methods/kit/particles/part_table.h"
 #include "methods/kit/particles/part_toml.h"
 #include "methods/kit/particles/particle_system.h"
 
@@ -47,6 +48,12 @@ force = [
 
 inline ParticleSystem systemFrom(const std::string& toml, std::uint64_t seed = 1) {
     return ParticleSystem(partsFromText(toml, "test.toml"), seed);
+}
+
+/// Gives the system a lattice if the part works only with one.
+inline void giveLattice(PartList& parts, const PartInfo& info) {
+    if (info.create(ParameterValues(info.parameters))->needsLattice())
+        parts.set(makePart(PartKind::position, "lattice"));
 }
 
 /// Advances `steps` steps behind the straight-driving car.
