@@ -80,6 +80,7 @@ std::string whyPreferred(std::span<const Adapter> adapters, std::size_t preferre
                          [](const Adapter& each) { return isHardwareDevice(each) && !each.problem.empty(); });
     const std::string problems = failed.empty() ? "" : " that provides OpenGL 4.5 (" + problemsOf(failed) + ")";
     if (isHardwareDevice(adapters[preferred])) return "first hardware adapter" + problems;
+    if (adapters[preferred].kind == Kind::hardware) return "EGL lists no hardware device" + problems + ": surfaceless";
     return "no hardware adapter" + problems + ": " +
            (adapters[preferred].platform == Platform::surfaceless ? "surfaceless" : "software device");
 }

@@ -47,6 +47,9 @@ TEST(Adapter, WithoutHardwareItIsSurfacelessAndASoftwareDeviceAtLast) {
     EXPECT_EQ(taken(machine({})), "surfaceless, no hardware adapter: surfaceless");
     EXPECT_EQ(taken({llvmpipe}), "llvmpipe, no hardware adapter: software device");
     EXPECT_EQ(taken({}), "none");
+    std::vector<Adapter> drawsOnAGpu = machine({});  // as its context has shown
+    drawsOnAGpu[0].kind = Kind::hardware;
+    EXPECT_EQ(taken(drawsOnAGpu), "surfaceless, EGL lists no hardware device: surfaceless");
     std::vector<Adapter> useless = machine({device("gpu", Kind::hardware)});
     for (Adapter& adapter : useless) adapter.problem = "has no display";
     EXPECT_EQ(taken(useless), "none");

@@ -34,7 +34,10 @@ std::string eglErrorText() {
 }
 
 std::vector<EGLDeviceEXT> eglDevices() {
-    if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration")) return {};
+    // The older name stands for enumeration and queries together.
+    if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") &&
+        !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_base"))
+        return {};
     EGLint count = 0;
     if (!eglQueryDevicesEXT(0, nullptr, &count)) return {};
     std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
