@@ -151,8 +151,9 @@ elsewhere: ## Run both commands of README in a bare system of another Debian rel
 	@tests/elsewhere/readme_commands.sh $(RELEASE)
 
 .PHONY: portable-elsewhere
-portable-elsewhere: portable ## Run the portable file in bare Debian 12 and 13 with nothing but Mesa (unfinished; needs root)
+portable-elsewhere: portable ## Run the portable file in bare Debian 12 and 13 with nothing but Mesa, and follow the Containerfile (needs root)
 	@tests/elsewhere/portable_file.sh build/dustbench-*-linux-x86_64.tar.zst
+	@tests/elsewhere/container_file.sh
 
 .PHONY: tsan
 tsan: build/tsan/build.ninja ## Run the unit tests that need no GPU under ThreadSanitizer
