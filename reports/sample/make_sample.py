@@ -6,6 +6,8 @@
                                                 PAPER/full; `make full PAPER=…` calls it
     make_sample.py --charts PROGRAM [PAPER …]   draws the charts of the full runs from their tables, PAPER/SUITE.svg
     make_sample.py --write                      updates README.md from this folder
+    make_sample.py PROGRAM GROUP                measures the quick runs of a group of papers that share runs, and draws their charts; keeps
+                                                only tables and charts
     make_sample.py --check                      exits with 1 if README.md and this folder disagree, or if PAPER/full/README.md
                                                 does not mention a claim whose verdict differs from that of the quick run
 """
@@ -23,7 +25,12 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 README = ROOT / "README.md"
 OUT = ROOT / "reports" / "out" / "sample"
-PAPERS = sorted(folder.parent.name for folder in (ROOT / "data" / "papers").glob("*/paper.toml"))
+# Papers that share runs: one folder for all, with further suites of our own.
+GROUPS = {"transparency": {
+    "papers": ["enderton2010", "aizenshtein2022", "munstermann2018", "mcguire2013", "salvi2011", "salvi2014", "yang2010", "cantlay2007"],
+    "suites": ["transparency", "transparency-scenes", "transparency-load"]}}
+GROUPED = {paper for group in GROUPS.values() for paper in group["papers"]}
+PAPERS = sorted(folder.parent.name for folder in (ROOT / "data" / "papers").glob("*/paper.toml") if folder.parent.name not in GROUPED)
 PAPER, SUITE = "carr2006", "carr2006-compare-quick"  # shown in README.md
 BEGIN, END = "<!-- sample: `make sample` writes what follows -->\n", "<!-- end of sample -->\n"
 MACHINE = ("cpu", "cores", "gl_renderer", "git_commit", "started_utc")
@@ -72,6 +79,30 @@ def measure(program, paper):
         for chart in (SUITE, SUITE + "-stages"):
             subprocess.run([program, "report", out, "--chart", chart, "--format", "png"], check=True)
             shutil.copy(out / "charts" / f"{chart}.png", kept)
+
+
+def measure_group(program, name):
+    """Resumes an interrupted measurement, as measure_full does."""
+    out, kept = OUT / name, HERE / name
+    goes_on = any(out.glob("runs/*/run.json"))
+    seconds, claims = 0, ""
+    for paper in GROUPS[name]["papers"]:
+        seconds += seconds_of([program, "reproduce", "--paper", paper, "--quick", "--controls", "--out", out])
+        head, _, rows_of_paper = (out / "claims.csv").read_text(encoding="utf-8").partition("\n")
+        claims += rows_of_paper if claims else head + "\n" + rows_of_paper
+    for suite in GROUPS[name]["suites"]:
+        seconds += seconds_of([program, "suite", suite, "--quick", "--out", out])
+    keep(out, kept, ("summary.csv",), {"quick_seconds": "" if goes_on else seconds})
+    (kept / "claims.csv").write_text(claims, encoding="utf-8")
+    draw_group(program, name)
+
+
+def draw_group(program, name):
+    """Draws the charts of the group's suites from its tables alone."""
+    kept = HERE / name
+    for old in kept.glob("*.svg"):
+        old.unlink()
+    subprocess.run([program, "report", kept, "--chart", "all", "--out", kept], check=True)
 
 
 def measure_full(program, paper):
@@ -181,12 +212,16 @@ def main(arguments):
         if full and len(arguments) < 3:
             sys.exit(f"make_sample.py: --full needs a paper: {', '.join(PAPERS)}")
         program, *papers = arguments[1:] if full or charts else arguments
-        papers = papers or PAPERS
+        allowed = PAPERS if full else [*PAPERS, *GROUPS]
+        papers = papers or (PAPERS if charts else allowed)
         for paper in papers:
-            if paper not in PAPERS:
-                sys.exit(f"make_sample.py: no paper '{paper}'; papers: {', '.join(PAPERS)}")
+            if paper not in allowed:
+                sys.exit(f"make_sample.py: no paper '{paper}'; papers: {', '.join(allowed)}")
         for paper in papers:
-            (draw_full if charts else measure_full if full else measure)(program, paper)
+            if paper in GROUPS:
+                (draw_group if charts else measure_group)(program, paper)
+            else:
+                (draw_full if charts else measure_full if full else measure)(program, paper)
     write()
 
 
