@@ -33,6 +33,7 @@ GROUPED = {paper for group in GROUPS.values() for paper in group["papers"]}
 PAPERS = sorted(folder.parent.name for folder in (ROOT / "data" / "papers").glob("*/paper.toml") if folder.parent.name not in GROUPED)
 PAPER, SUITE = "carr2006", "carr2006-compare-quick"  # shown in README.md
 BEGIN, END = "<!-- sample: `make sample` writes what follows -->\n", "<!-- end of sample -->\n"
+GUIDE = ROOT / "reports" / "guide" / "which-transparency.md"  # with a table of the group `transparency`
 MACHINE = ("cpu", "cores", "gl_renderer", "git_commit", "started_utc")
 TABLES = ("summary.csv", "claims.csv", "experiments.csv")
 
@@ -176,23 +177,63 @@ def block():
                      "", END.rstrip("\n"), ""])
 
 
-def readme_parts():
-    text = README.read_text(encoding="utf-8")
+def setting_of(row):
+    """`moment_oit mode=paper moments=6 precision=quantised`: the parameters that the suite sets."""
+    named = {"offscreen_particles": ["scale"], "weighted_oit": ["mode"], "moment_oit": ["mode", "moments", "precision"],
+             "wavelet_oit": ["rank", "coefficients"], "stochastic_transparency": ["samples"], "multi_layer": ["layers"],
+             "adaptive_transparency": ["nodes"]}
+    return " ".join([row["method"]] + [f"{name}={row[f'p.{name}']}" for name in named.get(row["method"], [])])
+
+
+def guide_block():
+    """A row for each setting of the suite `transparency`: medians over the seeds, best first."""
+    with open(HERE / "transparency" / "summary.csv", encoding="utf-8", newline="") as stream:
+        runs = [row for row in csv.DictReader(stream) if row["scene"] == "smoke" and row["p.light"] == "none" and row["frames"] == "6"
+                and row["status"] == "done" and row["method"] != "null_method"]
+    loads = sorted({int(row["p.particles"]) for row in runs})
+
+    def median(setting, column, load):
+        values = [float(row[column]) for row in runs if setting_of(row) == setting and int(row["p.particles"]) == load and row[column]]
+        return statistics.median(values) if values else None
+
+    def text(value, form):
+        return "" if value is None else format(value, form)
+    settings = sorted({setting_of(row) for row in runs}, key=lambda setting: median(setting, "flip_mask", loads[-1]))
+    lines = [BEGIN.rstrip("\n"),
+             "| Method and setting | " + " | ".join(f"FLIP, {load} puffs" for load in loads)
+             + f" | Worst pixel, {loads[-1]} puffs | Bits per pixel, {loads[-1]} puffs | Time, {loads[1]} puffs [ms] |", "|---|" + "--:|" * (len(loads) + 3)]
+    for setting in settings:
+        cells = [text(median(setting, "flip_mask", load), ".4f") for load in loads]
+        cells += [text(median(setting, "error_max", loads[-1]), ".3f"), text(median(setting, "bits_per_pixel", loads[-1]), ",.0f"),
+                  text(median(setting, "method_ms_median", loads[1]), ".1f")]
+        lines.append(f"| `{setting}` | " + " | ".join(cells) + " |")
+    return "\n".join(lines + [END])
+
+
+def parts_of(document):
+    text = document.read_text(encoding="utf-8")
     start, end = text.index(BEGIN), text.index(END) + len(END)
     return text[:start], text[start:end], text[end:]
 
 
+def written():
+    """The documents with a part that is written from this folder, and what the part must be."""
+    return [(README, block()), (GUIDE, guide_block())]
+
+
 def write():
-    before, _, after = readme_parts()
-    README.write_text(before + block() + after, encoding="utf-8")
+    for document, wanted in written():
+        before, _, after = parts_of(document)
+        document.write_text(before + wanted + after, encoding="utf-8")
 
 
 def check():
-    found, wanted = readme_parts()[1].splitlines(), block().splitlines()
-    for number in range(max(len(found), len(wanted))):
-        got, expected = (lines[number] if number < len(lines) else "nothing" for lines in (found, wanted))
-        if got != expected:
-            sys.exit(f"README.md has '{got}', expected '{expected}' from reports/sample; run `make sample` or make_sample.py --write")
+    for document, text in written():
+        found, wanted = parts_of(document)[1].splitlines(), text.splitlines()
+        for number in range(max(len(found), len(wanted))):
+            got, expected = (lines[number] if number < len(lines) else "nothing" for lines in (found, wanted))
+            if got != expected:
+                sys.exit(f"{document.name} has '{got}', expected '{expected}' from reports/sample; run `make sample` or make_sample.py --write")
     for folder in sorted(HERE.glob("*/full")):
         readme = folder / "README.md"
         explained = readme.read_text(encoding="utf-8") if readme.exists() else ""
