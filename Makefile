@@ -60,7 +60,7 @@ package: build ## Build the Debian package, build/release/dustbench_*.deb
 	@cpack --config build/release/CPackConfig.cmake -B build/release
 
 .PHONY: portable
-portable: ## Build one file for any Linux (unfinished: the archive is three times too large)
+portable: ## Build one file for any Linux on x86-64, build/dustbench-VERSION-linux-x86_64.tar.zst
 	@JOBS=$(JOBS) .ci/portable
 
 .PHONY: view

@@ -1,24 +1,73 @@
 #include "methods/moment_oit/moment_oit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
 
+#include "draw_shaders.h"
+#include "methods/contract/errors.h"
 #include "methods/kit/maths/transmittance.h"
 #include "moment_oit_shaders.h"
 
 namespace dustbench::moment_oit {
 namespace {
 
+/// Numbers as the arguments of a shader's array.
+std::string listOf(std::span<const double> numbers) {
+    std::string list;
+    for (const double number : numbers) {
+        std::array<char, 32> text{};
+        (void)std::snprintf(text.data(), text.size(), "%.9e", number);
+        list.append(list.empty() ? "" : ", ").append(text.data());
+    }
+    return list;
+}
+
 std::map<std::string, std::string> definitionsOf(const Settings& settings) {
-    std::map<std::string, std::string> names{{"MOMENTS", std::to_string(settings.moments)},
-                                             {"SAMPLES", std::to_string(settings.samples)}};
+    const Kind& kind = settings.kind;
+    const bool surface = settings.puff == Puff::surface;
+    std::map<std::string, std::string> names{{"MOMENTS", std::to_string(kind.count)},
+                                             {"SAMPLES", std::to_string(surface ? 1 : settings.samples)},
+                                             {"TOWARDS", listOf(towards(kind))}};
     if (settings.warp == Warp::log) names["WARP_LOG"] = "";
-    if (settings.shape == Shape::point) names["POINTS"] = "";
+    if (surface) names["SURFACE"] = "";
+    if (surface || settings.shape == Shape::point) names["POINTS"] = "";
+    if (kind.basis == Basis::trigonometric) {
+        names["TRIGONOMETRIC"] = "";
+        names["WRAPPING_ZONE"] = listOf({&wrappingZone, 1});
+    }
+    if (kind.precision == Precision::quantised) {
+        names["QUANTISED"] = "";
+        if (kind.basis == Basis::power) {
+            const Transform odd = oddTransform(kind.count), even = evenTransform(kind.count);
+            names["QUANTISE_ODD"] = listOf(odd.matrix), names["QUANTISE_EVEN"] = listOf(even.matrix);
+            names["DEQUANTISE_ODD"] = listOf(inverseOf(odd.matrix));
+            names["DEQUANTISE_EVEN"] = listOf(inverseOf(even.matrix));
+            names["OFFSET_ODD"] = listOf(odd.offset), names["OFFSET_EVEN"] = listOf(even.offset);
+        }
+    }
     return names;
 }
+
+std::vector<gpu::Format> momentFormats(const Kind& kind) {
+    using enum gpu::Format;
+    if (kind.precision == Precision::quantised) return {r32F};  // b₀; the others are in a buffer
+    if (kind.count == 4) return {rgba32F, r32F};
+    if (kind.count == 6) return {rgba32F, rgba32F};
+    return {rgba32F, rgba32F, r32F};
+}
+
+/// Bytes per pixel of the quantised moments.
+std::size_t storedBytes(const Kind& kind) {
+    return 2 * static_cast<std::size_t>(kind.count);
+}
+
+constexpr int momentTilePixels = 8;
 
 /// Offset and factor of the shaders' `warped`: it subtracts x, then multiplies by y.
 glm::vec2 warpUniform(const WarpedDepth& depth) {
@@ -29,33 +78,44 @@ glm::vec2 warpUniform(const WarpedDepth& depth) {
 
 }  // namespace
 
-WarpedDepth depthRange(const Puffs& dust, const scene::View& view, Warp warp) {
+WarpedDepth depthRange(const Puffs& dust, const scene::View& view, Warp warp, Puff puff) {
     constexpr double deviations = 3;
     const glm::dvec3 eye = view.camera.eye, ahead = glm::normalize(view.camera.target - eye);
     double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
     for (std::size_t i = 0; i < dust.size(); ++i) {
         const glm::dvec3 centre = glm::dvec3(dust.position(i)) - eye;
+        const double along = glm::dot(centre, ahead);
+        if (puff == Puff::surface) {
+            if (along < view.camera.nearMetres) continue;
+            nearest = std::min(nearest, along);
+            farthest = std::max(farthest, along);
+            continue;
+        }
         const double reach = deviations * maths::puffDeviationMetres(static_cast<double>(dust.radius[i]));
-        if (glm::dot(centre, ahead) < -reach) continue;
+        if (along < -reach) continue;
         nearest = std::min(nearest, glm::length(centre) - reach);
         farthest = std::max(farthest, glm::length(centre) + reach);
     }
-    nearest = std::max(nearest < farthest ? nearest : 0, view.camera.nearMetres);
+    nearest = std::max(nearest <= farthest ? nearest : 0, view.camera.nearMetres);
     return {warp, nearest, std::max(farthest, 1.01 * nearest)};
 }
 
 void MomentOit::prepare(const scene::Scene&, const RunSetup&, gpu::Device& device) {
-    const auto definitions = definitionsOf(settings_);
+    device_ = &device;
+    auto definitions = definitionsOf(settings_);
     quads_.emplace(device, settings_.reachDeviations);
-    moments_.emplace(device, "moments",
-                     std::vector<gpu::Format>{gpu::Format::rgba32F,
-                                              settings_.moments == 4 ? gpu::Format::r32F : gpu::Format::rgba32F});
+    moments_.emplace(device, "moments", momentFormats(settings_.kind));
     colours_.emplace(device, "weighted colours", std::vector<gpu::Format>{gpu::Format::rgba32F});
     average_.emplace(device);
     using namespace moment_oit_shaders;
-    momentPass_ = draw::puffPass("moments", {moments_glsl, moment_sum_frag}, definitions);
-    colourPass_ =
-        draw::puffPass("colours by moments", {moments_glsl, transmittance_glsl, moment_colour_frag}, definitions);
+    const Kind& kind = settings_.kind;
+    std::vector<gpu::ShaderFile> files{moments_glsl, bias_glsl};
+    files.push_back(kind.basis == Basis::power && kind.count < 8 ? transmittance_glsl : canonical_measure_glsl);
+    if (isQuantised()) files.push_back(quantise_glsl);
+    files.push_back(moment_colour_frag);
+    colourPass_ = draw::puffPass("colours by moments", std::move(files), definitions);
+    if (!isQuantised())
+        momentPass_ = draw::puffPass("moments", {moments_glsl, moment_sum_frag}, std::move(definitions));
 }
 
 void MomentOit::update(const Frame& frame) {
@@ -65,28 +125,84 @@ void MomentOit::update(const Frame& frame) {
 
 void MomentOit::draw(const Frame& frame, gpu::Layer& layer) {
     if (quads_->count() == 0) return;
-    const glm::vec2 warp = warpUniform(depthRange(frame.dust, frame.view, settings_.warp));
-    gpu::Program& first = quads_->begin(*momentPass_, frame.view);
-    first.set("warp", warp);
-    moments_->begin(layer.width(), layer.height());
-    quads_->add(first, layer.sceneDepth());
+    const WarpedDepth range = depthRange(frame.dust, frame.view, settings_.warp, settings_.puff);
+    isQuantised() ? addQuantisedMoments(frame, range, layer) : addMoments(frame, range, layer);
 
     gpu::Program& second = quads_->begin(*colourPass_, frame.view);
-    second.set("warp", warp);
-    second.set("momentBias", static_cast<float>(settings_.biasFactor * biasOf(settings_.moments)));
+    second.set("warp", warpUniform(range));
+    second.set("momentBias", static_cast<float>(settings_.biasFactor * biasOf(settings_.kind)));
     second.set("overestimation", static_cast<float>(settings_.overestimation));
     if (!quads_->isColoured()) second.set("puffColour", frame.dust.colourOfAll);
+    if (isQuantised()) {
+        second.set("pictureWidth", layer.width());
+        quantisedMoments_.bindStorage(1);
+    }
     colours_->begin(layer.width(), layer.height());
-    moments_->texture(0).bind(1);
-    moments_->texture(1).bind(2);
+    for (std::size_t i = 0; i < momentFormats(settings_.kind).size(); ++i)
+        moments_->texture(i).bind(static_cast<std::uint32_t>(i + 1));
     quads_->add(second, layer.sceneDepth());
-    average_->draw(colours_->texture(0), moments_->texture(1), layer);
+    average_->draw(colours_->texture(0), total(), layer);
+}
+
+void MomentOit::addMoments(const Frame& frame, const WarpedDepth& range, const gpu::Layer& layer) {
+    gpu::Program& first = quads_->begin(*momentPass_, frame.view);
+    first.set("warp", warpUniform(range));
+    moments_->begin(layer.width(), layer.height());
+    quads_->add(first, layer.sceneDepth());
+}
+
+void MomentOit::addQuantisedMoments(const Frame& frame, const WarpedDepth& range, const gpu::Layer& layer) {
+    if (!quantisedPass_ || floatsPerPuff_ != quads_->floats()) {
+        auto definitions = definitionsOf(settings_);
+        floatsPerPuff_ = quads_->floats();
+        definitions["FLOATS"] = std::to_string(floatsPerPuff_);
+        using namespace moment_oit_shaders;
+        quantisedPass_.emplace(
+            *device_, "quantised moments",
+            std::initializer_list<gpu::ShaderFile>{draw_shaders::error_function_glsl, draw_shaders::puff_ray_glsl,
+                                                   moments_glsl, quantise_glsl, quantised_sum_comp},
+            definitions);
+    }
+    const scene::View& view = frame.view;
+    const glm::mat4 clip = view.eyeToClip();
+    const glm::vec2 slopes(1 / clip[0][0], 1 / clip[1][1]);  // at the picture's edges
+    gpu::Program& program = *quantisedPass_;
+    program.set("rays", glm::vec4(2.0f * slopes / glm::vec2(view.width, view.height), -slopes));
+    program.set("nearMetres", static_cast<float>(view.camera.nearMetres));
+    program.set("reach", static_cast<float>(settings_.reachDeviations));
+    program.set("eye", glm::vec3(view.camera.eye));
+    program.set("worldToEye", view.worldToEye());
+    program.set("count", static_cast<int>(quads_->count()));
+    program.set("warp", warpUniform(range));
+
+    const std::size_t bytes = storedBytes(settings_.kind) * static_cast<std::size_t>(layer.width()) *
+                              static_cast<std::size_t>(layer.height());
+    if (bytes > device_->maximumStorageBytes())
+        throw InputError("precision=quantised: got " + std::to_string(layer.width()) + "x" +
+                         std::to_string(layer.height()) + " pixels, allowed: up to " +
+                         std::to_string(device_->maximumStorageBytes() / storedBytes(settings_.kind)) +
+                         " pixels on this device");
+    if (quantisedMoments_.bytes() != bytes) quantisedMoments_ = gpu::Buffer(*device_, "quantised moments", bytes);
+    moments_->begin(layer.width(), layer.height());
+    quads_->bindValues(0);
+    quantisedMoments_.bindStorage(1);
+    layer.sceneDepth().bind(0);
+    moments_->texture(0).bindImage(1, false, true);
+    const auto tiles = [](int pixels) { return (pixels + momentTilePixels - 1) / momentTilePixels; };
+    program.dispatch(tiles(layer.width()), tiles(layer.height()), 1);
+}
+
+void MomentOit::report(const Frame&, Facts& facts) const {
+    std::size_t bytes = gpu::bytesPerTexel(gpu::Format::rgba32F);  // weighted colours
+    for (const gpu::Format format : momentFormats(settings_.kind)) bytes += gpu::bytesPerTexel(format);
+    if (isQuantised()) bytes += storedBytes(settings_.kind);
+    facts.tell("bits_per_pixel", 8.0 * static_cast<double>(bytes));
 }
 
 MemoryReport MomentOit::memory() const {
     MemoryReport report;
     if (quads_) report.push_back({"puffs", 0, quads_->gpuBytes()});
-    if (moments_) report.push_back({"moments", 0, moments_->gpuBytes()});
+    if (moments_) report.push_back({"moments", 0, moments_->gpuBytes() + quantisedMoments_.bytes()});
     if (colours_) report.push_back({"weighted colours", 0, colours_->gpuBytes()});
     return report;
 }
@@ -103,29 +219,48 @@ MethodInfo describe() {
         "transmittance.";
     info.source = "Munstermann2018";
     info.takesLights = true;
-    info.parameters.choice("moments", "6", {"4", "6"}, "power moments of a pixel's optical depth besides the total")
-        .choice(
-            "profile", Shape::puff, shapes,
-            "moments that a puff adds: those of its extinction along the ray, or, as in the paper, those of a point")
-        .choice("samples", "1", {"1", "3"}, "points in a puff at which the transmittance in front of it is evaluated")
+    info.parameters
+        .choice("moments", "6", {"4", "6", "8"},
+                "numbers per pixel besides the total: power moments of the optical depth, or the real and imaginary "
+                "parts of 2, 3 or 4 trigonometric moments")
+        .choice("basis", Basis::power, bases, "moments of the warped distance, or of its angle on a circle")
+        .choice("precision", Precision::single, precisions,
+                "32-bit floats, or 16-bit integers with the paper's transforms")
+        .choice("puff", Puff::volume, puffKinds,
+                "a puff as a surface at its centre's depth, as published, or as a volume cut by eye and scene")
+        .choice("profile", Shape::puff, shapes,
+                "moments that a volume adds: those of its extinction along the ray, or those of a point")
+        .choice("samples", "1", {"1", "3"}, "points in a volume at which the transmittance in front of it is evaluated")
         .choice("warp", Warp::log, warps,
                 "mapping of distances before their moments are taken: by the logarithm, as in the paper, or none")
         .real("overestimation", 0.5, 0, 1, "",
               "position of T between the bounds given by the moments: 0 is the brighter one, 1 the darker one")
         .real("bias_factor", 1, 0, 10'000, "",
-              "factor on the paper's bias of the moments, 5e-7 for four and 5e-6 for six")
+              "factor on the paper's bias of the moments, which depends on moments, basis and precision, such as 5e-6 "
+              "for six power moments in floats; their product is 1 at most")
         .real("reach", 3.5, 2, 6, "deviations",
-              "half-side of a puff's quad in standard deviations; exp(-reach^2/2) of its depth is cut off");
+              "half-side of a puff's quad in standard deviations; exp(-reach^2/2) of its depth is cut off")
+        .choice("mode", "fixed", {"fixed", "paper"}, "puffs as volumes, or as surfaces as in the paper");
+    info.parameters.preset("mode", "paper", {{"puff", "surface"}});
+    info.parameters.preset("puff", "surface", {{"overestimation", "0.25"}});
     info.parameters.preset("profile", "point", {{"overestimation", "0.25"}});
+    info.facts.push_back({"bits_per_pixel", "bit", FactOver::lastFrame,
+                          "storage of the intermediate targets per pixel of the picture; of lists, the part in use"});
     info.create = [](const ParameterValues& values) {
         Settings settings;
-        settings.moments = values.choice("moments") == "4" ? 4 : 6;
+        settings.kind = {.basis = values.choice("basis", bases),
+                         .precision = values.choice("precision", precisions),
+                         .count = std::stoi(values.choice("moments"))};
+        settings.puff = values.choice("puff", puffKinds);
         settings.shape = values.choice("profile", shapes);
         settings.samples = values.choice("samples") == "3" ? 3 : 1;
         settings.warp = values.choice("warp", warps);
         settings.overestimation = values.real("overestimation");
         settings.biasFactor = values.real("bias_factor");
         settings.reachDeviations = values.real("reach");
+        if (settings.biasFactor * biasOf(settings.kind) > 1)
+            throw InputError("bias_factor: got " + values.canonical().find("bias_factor")->second + ", allowed: 0.." +
+                             std::to_string(static_cast<int>(1 / biasOf(settings.kind))) + " with these moments");
         return std::make_unique<MomentOit>(settings);
     };
     return info;

@@ -52,10 +52,10 @@ void frame(benchmark::State& state, const Settings& settings) {
 void settings(benchmark::internal::Benchmark* benchmark) {
     benchmark->Arg(1'000)->Arg(5'000)->UseRealTime()->Unit(benchmark::kMillisecond);
 }
-BENCHMARK_CAPTURE(frame, four, {.moments = 4})->Apply(settings);
-BENCHMARK_CAPTURE(frame, six, {.moments = 6})->Apply(settings);
-BENCHMARK_CAPTURE(frame, six_of_points, {.moments = 6, .shape = Shape::point})->Apply(settings);
-BENCHMARK_CAPTURE(frame, six_three_samples, {.moments = 6, .samples = 3})->Apply(settings);
+BENCHMARK_CAPTURE(frame, four, {.kind = {.count = 4}})->Apply(settings);
+BENCHMARK_CAPTURE(frame, six, {.kind = {.count = 6}})->Apply(settings);
+BENCHMARK_CAPTURE(frame, six_of_points, {.kind = {.count = 6}, .shape = Shape::point})->Apply(settings);
+BENCHMARK_CAPTURE(frame, six_three_samples, {.kind = {.count = 6}, .samples = 3})->Apply(settings);
 
 }  // namespace
 }  // namespace dustbench::moment_oit

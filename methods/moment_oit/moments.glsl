@@ -1,5 +1,6 @@
-// Moments of the optical depth along a ray, and the transmittance that they bound. MOMENTS is 4 or 6; b[0] of
-// b[0..MOMENTS] is the total depth. The reference implementation is plain_moments.cpp.
+// Moments of the optical depth along a ray. MOMENTS is 4, 6 or 8; b[0] of b[0..MOMENTS] is the total depth. The others
+// are power moments or, if TRIGONOMETRIC, the real and imaginary parts of moments on a circle. SURFACE: a puff is a
+// surface at its centre's depth along the camera's axis. The reference implementation is plain_moments.cpp.
 uniform vec2 warp;  // WARP_LOG: ln of the nearest distance, 2/(ln farthest − ln nearest); otherwise the same without ln
 
 /// Maps a distance to −1..1.
@@ -48,6 +49,43 @@ Profile profileOf(PuffOnRay puff) {
     return profile;
 }
 
+#ifdef SURFACE
+/// A surface with the depth of the whole puff, if the scene is behind its centre; moves the puff's foot to it.
+Profile surfaceOf(inout PuffOnRay puff, vec4 centre, float nearMetres, float axisMetresOfScene) {
+    puff.foot = -centre.z;
+    bool seen = puff.foot >= nearMetres && puff.foot <= axisMetresOfScene;
+    Profile profile;
+    profile.depth = seen ? puff.whole : 0.0;
+    profile.mean = 0.0;
+    profile.variance = 0.0;
+    return profile;
+}
+#endif
+
+#ifdef TRIGONOMETRIC
+/// The angle 0 … 2π − WRAPPING_ZONE of a warped distance −1 … 1.
+float phaseOf(float z) {
+    return (clamp(z, -1.0, 1.0) + 1.0) * (3.14159265 - 0.5 * WRAPPING_ZONE);
+}
+
+/// Moments on the circle of a normal distribution with the puff's mean and variance; of a point, the variance is 0.
+void momentsOf(PuffOnRay puff, Profile profile, out float b[MOMENTS + 1]) {
+    float middle = max(puff.foot + profile.mean * puff.metres, leastMetres);
+    float phase = phaseOf(warped(middle));
+    float turn = warpSlope(middle) * puff.metres * (3.14159265 - 0.5 * WRAPPING_ZONE);
+#ifdef POINTS
+    float variance = 0.0;
+#else
+    float variance = turn * turn * profile.variance;
+#endif
+    b[0] = profile.depth;
+    for (int k = 1; 2 * k <= MOMENTS; ++k) {
+        float size = profile.depth * exp(-0.5 * float(k * k) * variance);
+        b[2 * k - 1] = size * cos(float(k) * phase);
+        b[2 * k] = size * sin(float(k) * phase);
+    }
+}
+#else
 /// The moments of a puff: bⱼ = ∫ σ(t)·z(t)ʲ dt, with z linearised at the mean, or as if the whole depth were there.
 void momentsOf(PuffOnRay puff, Profile profile, out float b[MOMENTS + 1]) {
     float middle = max(puff.foot + profile.mean * puff.metres, leastMetres);
@@ -66,3 +104,4 @@ void momentsOf(PuffOnRay puff, Profile profile, out float b[MOMENTS + 1]) {
     }
 #endif
 }
+#endif

@@ -32,10 +32,12 @@ double depthBefore(const Ray& ray, double metres) {
     return depth;
 }
 
-std::vector<double> sumOf(const Ray& ray, const WarpedDepth& depth, int count, bool asPoint) {
-    std::vector<double> sum(static_cast<std::size_t>(count) + 1);
+std::vector<double> sumOf(const Ray& ray, const WarpedDepth& depth, const Kind& kind, bool asPoint) {
+    std::vector<double> sum(static_cast<std::size_t>(kind.count) + 1);
     for (const RayPuff& puff : ray) {
-        const std::vector<double> one = momentsOf(puff, depth, count, asPoint);
+        const Profile profile = profileOf(puff);
+        const std::vector<double> one = asPoint ? momentsOf(RaySurface{profile.depth, profile.meanMetres}, depth, kind)
+                                                : momentsOf(puff, depth, kind);
         for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += one[j];
     }
     return sum;
@@ -45,7 +47,7 @@ TEST(Moments, OfAPuffEqualTheIntegralAlsoWhereEyeAndSceneCutIt) {
     const WarpedDepth depth{Warp::linear, 1, 21};
     for (const RayPuff& puff : {RayPuff{0.7, 9, 0.5}, RayPuff{0.3, 0.2, 0.6}, RayPuff{0.4, 8, 0.8, 0, 8.3},
                                 RayPuff{0.4, 8, 0.5, 0, 6.8}, RayPuff{2, -0.3, 0.7, 0, 0.8}}) {
-        const std::vector<double> b = momentsOf(puff, depth, 6, false);
+        const std::vector<double> b = momentsOf(puff, depth, Kind{.count = 6});
         const double from = std::max(puff.beginMetres, puff.footMetres - 8 * puff.deviationMetres);
         const double to = std::min(puff.endMetres, puff.footMetres + 8 * puff.deviationMetres);
         const int steps = 20'000;
@@ -69,14 +71,16 @@ TEST(Moments, ReconstructAsManySurfacesAsTheyAreTwice) {
         Ray ray;
         for (std::size_t i = 0; i < static_cast<std::size_t>(count) / 2; ++i)
             ray.push_back({depths[i], places[i], 1e-4});
-        const std::vector<double> b = sumOf(ray, depth, count, true);
+        const std::vector<double> b = sumOf(ray, depth, {.count = count}, true);
         double before = 0;
         for (std::size_t i = 0; i <= ray.size(); ++i) {
             const double metres = i == 0 ? 2 : i < ray.size() ? 0.5 * (places[i - 1] + places[i]) : 38;
             // 1e-10: their matrix is singular.
-            EXPECT_NEAR(transmittance(b, depth.at(metres), 1e-10, 0.25), std::exp(-before), 2e-4)
+            EXPECT_NEAR(transmittance(b, depth.at(metres), {.count = count}, 1e-10, 0.25), std::exp(-before), 2e-4)
                 << count << ' ' << metres;
-            EXPECT_NEAR(transmittance(b, depth.at(metres), biasOf(count), 0.25), std::exp(-before), 0.03) << count;
+            EXPECT_NEAR(transmittance(b, depth.at(metres), {.count = count}, biasOf({.count = count}), 0.25),
+                        std::exp(-before), 0.03)
+                << count;
             if (i < ray.size()) before += depths[i];
         }
     }
@@ -84,9 +88,9 @@ TEST(Moments, ReconstructAsManySurfacesAsTheyAreTwice) {
 
 TEST(Moments, OneSurfaceDimsWhatLiesBehindItAndNothingBefore) {
     const WarpedDepth depth{Warp::log, 1, 40};
-    const std::vector<double> b = sumOf({{1.5, 8, 1e-4}}, depth, 4, true);
-    EXPECT_NEAR(transmittance(b, depth.at(7), biasOf(4), 0.25), 1, 2e-3);
-    EXPECT_NEAR(transmittance(b, depth.at(9.5), biasOf(4), 0.25), std::exp(-1.5), 2e-3);
+    const std::vector<double> b = sumOf({{1.5, 8, 1e-4}}, depth, {.count = 4}, true);
+    EXPECT_NEAR(transmittance(b, depth.at(7), {.count = 4}, biasOf({.count = 4}), 0.25), 1, 2e-3);
+    EXPECT_NEAR(transmittance(b, depth.at(9.5), {.count = 4}, biasOf({.count = 4}), 0.25), std::exp(-1.5), 2e-3);
 }
 
 /// Markov's theorem: with the exact moments of a measure and no bias, T never lies outside the bounds.
@@ -96,11 +100,11 @@ TEST(Moments, BoundTheTransmittanceFromBothSides) {
     for (const int count : {4, 6})
         for (int trial = 0; trial < 40; ++trial) {
             const Ray ray = randomRay(random, 8, trial % 2 ? 1e9 : 25);
-            const std::vector<double> b = sumOf(ray, depth, count, false);
+            const std::vector<double> b = sumOf(ray, depth, {.count = count}, false);
             for (double metres = 1; metres < 44; metres += 0.7) {
                 const double exact = std::exp(-depthBefore(ray, metres));
-                const double high = transmittance(b, depth.at(metres), 0, 0),
-                             low = transmittance(b, depth.at(metres), 0, 1);
+                const double high = transmittance(b, depth.at(metres), {.count = count}, 0, 0),
+                             low = transmittance(b, depth.at(metres), {.count = count}, 0, 1);
                 EXPECT_LE(exact, high + 1e-6);
                 EXPECT_GE(exact, low - 1e-6);
             }
@@ -115,10 +119,11 @@ double meanError(int count, bool asPoint, double overestimation) {
     int samples = 0;
     for (int trial = 0; trial < 200; ++trial) {
         const Ray ray = randomRay(random, 8, 1e9);
-        const std::vector<double> b = sumOf(ray, depth, count, asPoint);
+        const std::vector<double> b = sumOf(ray, depth, {.count = count}, asPoint);
         for (double metres = 1; metres < 44; metres += 0.7, ++samples)
-            sum += std::abs(transmittance(b, depth.at(metres), biasOf(count), overestimation) -
-                            std::exp(-depthBefore(ray, metres)));
+            sum += std::abs(
+                transmittance(b, depth.at(metres), {.count = count}, biasOf({.count = count}), overestimation) -
+                std::exp(-depthBefore(ray, metres)));
     }
     return sum / samples;
 }
@@ -139,11 +144,13 @@ TEST(Moments, OfPuffsAreBetterThanOfPointsWherePuffsAreWide) {
     double puffs = 0, points = 0;
     for (int trial = 0; trial < 100; ++trial) {
         const Ray ray{{1 + uniform(random), 6 + 4 * uniform(random), 1.5}, {0.5, 12 + 6 * uniform(random), 2}};
-        const std::vector<double> own = sumOf(ray, depth, 6, false), asPoint = sumOf(ray, depth, 6, true);
+        const std::vector<double> own = sumOf(ray, depth, {.count = 6}, false),
+                                  asPoint = sumOf(ray, depth, {.count = 6}, true);
         for (double metres = 2; metres < 25; metres += 0.5) {
             const double exact = std::exp(-depthBefore(ray, metres));
-            puffs += std::abs(transmittance(own, depth.at(metres), biasOf(6), 0.5) - exact);
-            points += std::abs(transmittance(asPoint, depth.at(metres), biasOf(6), 0.5) - exact);
+            puffs += std::abs(transmittance(own, depth.at(metres), {.count = 6}, biasOf({.count = 6}), 0.5) - exact);
+            points +=
+                std::abs(transmittance(asPoint, depth.at(metres), {.count = 6}, biasOf({.count = 6}), 0.5) - exact);
         }
     }
     EXPECT_LT(puffs, 0.5 * points);

@@ -1,14 +1,15 @@
 // Moments of the optical depth along a ray, and the transmittance that they bound: the reference implementation of
-// moments.glsl and transmittance.glsl, in double precision, for any even number of moments up to 6.
+// moments.glsl and the shaders of the transmittance, in double precision, for all kinds of moments.
 //
 // Units: metres; moments are of warped distances, which are in −1..1. Threads: pure.
 // Source: Munstermann2018, 3. Departs: a puff's own moments, limited by eye and scene, instead of a point's; distance
 // along the ray instead of along the camera's axis.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
+
+#include "methods/moment_oit/moment_kind.h"
 
 namespace dustbench::moment_oit {
 
@@ -35,15 +36,29 @@ struct Profile {
 };
 [[nodiscard]] Profile profileOf(const RayPuff& puff);
 
-/// b₀..b_count of one puff: ∫ σ(t)·z(t)ʲ dt with z linearised at the mean distance; `asPoint`: depth·z(mean)ʲ.
-[[nodiscard]] std::vector<double> momentsOf(const RayPuff& puff, const WarpedDepth& depth, int count, bool asPoint);
+/// A surface: its optical depth and its distance.
+struct RaySurface {
+    double depth, metres;
+};
 
-/// Bias for single precision: 5e-7 for four moments, 5e-6 for six. Source: Munstermann2018, 3.4.
-[[nodiscard]] double biasOf(int count);
+/// b₀ … b_count of a surface.
+[[nodiscard]] std::vector<double> momentsOf(const RaySurface& surface, const WarpedDepth& depth, const Kind& kind);
+/// Of a puff: ∫ σ(t)·z(t)ʲ dt with z linearised at the mean distance. Trigonometric ones are those of a normal
+/// distribution with the mean and the variance of the part between eye and scene.
+[[nodiscard]] std::vector<double> momentsOf(const RayPuff& puff, const WarpedDepth& depth, const Kind& kind);
 
-/// T(z) from b₀..b_count: exp(−b₀·share). `share` is the weight before z, plus `overestimation` times the weight at z,
-/// of the unique measure with these moments that has a point at z. overestimation 0 and 1 give the sharp upper and
-/// lower bounds of every T with these moments. Source: Munstermann2018, 3.2.
-[[nodiscard]] double transmittance(std::span<const double> moments, double z, double bias, double overestimation);
+/// dφ/dz of the angle φ = 0 … 2π − wrappingZone of a warped distance z = −1 … 1.
+inline constexpr double phaseSlope = std::numbers::pi - 0.5 * wrappingZone;
+[[nodiscard]] constexpr double phaseOf(double z) {
+    return (z + 1) * phaseSlope;
+}
+
+/// T(z) from b₀ … b_count: exp(−b₀·share). `share` is the weight before z, plus `overestimation` times the weight at z,
+/// of the unique measure with these moments that has a point at z. With power moments, overestimation 0 and 1 give the
+/// sharp upper and lower bounds of every T with these moments. With trigonometric ones, points in the wrapping zone
+/// count by a ramp, as they belong to the near as much as to the far end.
+/// Source: Munstermann2018, 3.2. Departs: the ramp is linear in the angle.
+[[nodiscard]] double transmittance(std::span<const double> moments, double z, const Kind& kind, double bias,
+                                   double overestimation);
 
 }  // namespace dustbench::moment_oit

@@ -1,19 +1,6 @@
 // T(z) = exp(−b₀·share). `share` is the weight before z, plus `overestimation` times the weight at z, of the unique
 // measure with these moments that has a point at z. Source: Munstermann2018, 3.2.
-uniform float momentBias;
-uniform float overestimation;
-
-/// Normalises, and moves a little towards the moments of a measure that is far from singular. Munstermann2018, 3.4.
-void biased(inout float b[MOMENTS + 1]) {
-#if MOMENTS == 4
-    const float towards[5] = float[](1.0, 0.0, 0.375, 0.0, 0.375);
-#else
-    const float towards[7] = float[](1.0, 0.0, 0.48, 0.0, 0.451, 0.0, 0.45);
-#endif
-    for (int j = 1; j <= MOMENTS; ++j) b[j] = mix(b[j] / b[0], towards[j], momentBias);
-    b[0] = 1.0;
-}
-
+// Of eight and of trigonometric moments: canonical_measure.glsl.
 /// Roots of c₀ + c₁·x + c₂·x², both real, without the cancellation that a small c₂ causes.
 vec2 rootsOfQuadratic(vec3 c) {
     float root = sqrt(max(c.y * c.y - 4.0 * c.x * c.z, 0.0));

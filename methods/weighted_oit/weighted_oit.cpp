@@ -1,7 +1,10 @@
 #include "methods/weighted_oit/weighted_oit.h"
 
+#include <map>
 #include <string>
 
+#include "draw_shaders.h"
+#include "methods/kit/gpu/draw_call.h"
 #include "weighted_oit_shaders.h"
 
 namespace dustbench::weighted_oit {
@@ -23,14 +26,50 @@ std::string equationOf(Weight weight) {
     return "5";
 }
 
+gpu::Format formatOf(Accumulation accumulation) {
+    return accumulation == Accumulation::rgba16f ? gpu::Format::rgba16F : gpu::Format::rgba32F;
+}
+
+gpu::Format formatOf(Revealage revealage) {
+    switch (revealage) {
+        case Revealage::r32f:
+            return gpu::Format::r32F;
+        case Revealage::r16f:
+            return gpu::Format::r16F;
+        case Revealage::r8:
+            return gpu::Format::r8;
+    }
+    return gpu::Format::r32F;
+}
+
+bool isProduct(Revealage revealage) {
+    return revealage != Revealage::r32f;
+}
+
+std::map<std::string, std::string> definitionsOf(const Settings& settings) {
+    return {{"WEIGHT", equationOf(settings.weight)},
+            {"SURFACE", settings.puff == Puff::surface ? "1" : "0"},
+            {"PRODUCT", isProduct(settings.revealage) ? "1" : "0"},
+            {"HALF", settings.accumulation == Accumulation::rgba16f ? "1" : "0"}};
+}
+
 }  // namespace
 
 void WeightedOit::prepare(const scene::Scene&, const RunSetup&, gpu::Device& device) {
-    quads_.emplace(device, reach_);
-    sums_.emplace(device, "weighted sums", std::vector<gpu::Format>{gpu::Format::rgba32F, gpu::Format::r32F});
-    average_.emplace(device);
-    pass_ =
-        draw::puffPass("weighted sums", {weighted_oit_shaders::weighted_sum_frag}, {{"WEIGHT", equationOf(weight_)}});
+    namespace shaders = weighted_oit_shaders;
+    const auto definitions = definitionsOf(settings_);
+    const float nothingYet = isProduct(settings_.revealage) ? 1 : 0;
+    quads_.emplace(device, settings_.reachDeviations);
+    sums_.emplace(device, "weighted sums",
+                  std::vector<gpu::Format>{formatOf(settings_.accumulation), formatOf(settings_.revealage)},
+                  std::vector<float>{0, nothingYet});
+    pass_ = draw::puffPass("weighted sums", {shaders::weighted_sum_frag}, definitions);
+    mean_.emplace(
+        device, "weighted mean",
+        std::initializer_list<gpu::ShaderFile>{draw_shaders::composite_vert, draw_shaders::error_function_glsl,
+                                               draw_shaders::puff_ray_glsl, shaders::weighted_mean_frag},
+        definitions);
+    noVertices_ = gpu::VertexArray(device);
 }
 
 void WeightedOit::update(const Frame& frame) {
@@ -43,8 +82,21 @@ void WeightedOit::draw(const Frame& frame, gpu::Layer& layer) {
     gpu::Program& program = quads_->begin(*pass_, frame.view);
     if (!quads_->isColoured()) program.set("puffColour", frame.dust.colourOfAll);
     sums_->begin(layer.width(), layer.height());
-    quads_->add(program, layer.sceneDepth());
-    average_->draw(sums_->texture(0), sums_->texture(1), layer);
+    if (isProduct(settings_.revealage))
+        quads_->addAndReveal(program, layer.sceneDepth());
+    else
+        quads_->add(program, layer.sceneDepth());
+
+    layer.bindColourOnly();
+    sums_->texture(0).bind(0);
+    sums_->texture(1).bind(1);
+    gpu::draw(*mean_, noVertices_, {}, gpu::Primitives::triangles, 3);
+}
+
+void WeightedOit::report(const Frame&, Facts& facts) const {
+    const std::size_t bytes =
+        gpu::bytesPerTexel(formatOf(settings_.accumulation)) + gpu::bytesPerTexel(formatOf(settings_.revealage));
+    facts.tell("bits_per_pixel", static_cast<std::int64_t>(8 * bytes));
 }
 
 MemoryReport WeightedOit::memory() const {
@@ -68,10 +120,25 @@ MethodInfo describe() {
     info.parameters
         .choice("weight", Weight::eq7, weights,
                 "decrease of a puff's weight with its distance: an equation of the paper, or none")
+        .choice("accumulation", Accumulation::rgba32f, accumulations,
+                "storage of the weighted sums; half precision overflows above 65504")
+        .choice("revealage", Revealage::r32f, revealages,
+                "storage of the cloud's transmittance: the sum of optical depths (r32f), or the product of 1 - alpha "
+                "as published, rounded after each puff (r16f, r8)")
+        .choice("puff", Puff::volume, puffs,
+                "a volume cut at the eye and the scene, or a surface at the depth of the puff's centre")
         .real("reach", 3.5, 2, 6, "deviations",
-              "half-side of a puff's quad in standard deviations; exp(-reach^2/2) of its depth is cut off");
+              "half-side of a puff's quad in standard deviations; exp(-reach^2/2) of its depth is cut off")
+        .choice("mode", "fixed", {"fixed", "paper"}, "paper: blended as published")
+        .preset("mode", "paper", {{"accumulation", "rgba16f"}, {"revealage", "r8"}, {"puff", "surface"}});
+    info.facts.push_back({"bits_per_pixel", "bit", FactOver::lastFrame,
+                          "storage of the intermediate targets per pixel of the picture; of lists, the part in use"});
     info.create = [](const ParameterValues& values) {
-        return std::make_unique<WeightedOit>(values.choice("weight", weights), values.real("reach"));
+        return std::make_unique<WeightedOit>(Settings{.weight = values.choice("weight", weights),
+                                                      .accumulation = values.choice("accumulation", accumulations),
+                                                      .revealage = values.choice("revealage", revealages),
+                                                      .puff = values.choice("puff", puffs),
+                                                      .reachDeviations = values.real("reach")});
     };
     return info;
 }

@@ -46,7 +46,7 @@ void run(benchmark::State& state, Method& method, Workload& work) {
 
 void frame(benchmark::State& state, bool oneColour) {
     Workload work(static_cast<std::size_t>(state.range(0)), oneColour);
-    WeightedOit method(Weight::eq7, 4);
+    WeightedOit method({.reachDeviations = 4});
     run(state, method, work);
 }
 BENCHMARK_CAPTURE(frame, one_colour, true)->Arg(1'000)->Arg(5'000)->UseRealTime()->Unit(benchmark::kMillisecond);

@@ -1,4 +1,5 @@
-// Σ α·w·c and Σ α·w of the puffs in front of the scene, and the sum of their depths.
+// Σ α·w·c and Σ α·w of the puffs in front of the scene; and Π(1 − α) if PRODUCT, otherwise the sum of their depths.
+// SURFACE: a puff lies at the depth of its centre, with the alpha of its whole chord.
 // Source: McGuireBavoil2013, Eq. 6 to 10. Departs: Eq. 10 with the far plane at infinity.
 flat in vec4 centre;
 flat in float logDepth;
@@ -12,7 +13,7 @@ uniform float nearMetres;
 layout(binding = 0) uniform sampler2D sceneDepth;
 
 layout(location = 0) out vec4 weighted;
-layout(location = 1) out float depthSum;
+layout(location = 1) out float revealage;  // blended: PRODUCT multiplies by 1 − this
 
 /// Weight by the distance along the camera's axis and the puff's alpha.
 float weightOf(float z, float alpha) {
@@ -38,8 +39,20 @@ void main() {
     float stretch = length(ray);
     float scene = sceneMetresOf(texelFetch(sceneDepth, ivec2(gl_FragCoord.xy), 0).r, nearMetres, stretch);
     PuffOnRay puff = puffOnRay(centre, logDepth, ray / stretch, scene);
-    depthSum = puff.whole * shareOnRay(puff);
-    float alpha = opacityOf(depthSum);
-    float share = alpha * weightOf(clamp(puff.foot, 0.0, scene) / stretch, alpha);
+#if SURFACE == 1
+    float axisMetres = -centre.z;
+    bool visible = axisMetres > nearMetres && axisMetres * stretch <= scene;
+    float depth = visible ? puff.whole : 0.0;
+#else
+    float axisMetres = clamp(puff.foot, 0.0, scene) / stretch;
+    float depth = puff.whole * shareOnRay(puff);
+#endif
+    float alpha = opacityOf(depth);
+    float share = alpha * weightOf(axisMetres, alpha);
     weighted = vec4(share * puffColour, share);
+#if PRODUCT == 1
+    revealage = alpha;
+#else
+    revealage = depth;
+#endif
 }

@@ -27,6 +27,10 @@
 #include "methods/kit/gpu/device.h"
 #include "methods/kit/gpu/layer.h"
 #include "methods/kit/gpu/program.h"
+#include "methods/kit/gpu/sort/depth_keys.h"
+#include "methods/kit/gpu/sort/radix_sort.h"
+#include "methods/kit/gpu/sort/reduction.h"
+#include "methods/kit/gpu/sort/scan.h"
 #include "methods/kit/particles/particle_store.h"
 #include "methods/kit/raycast/grid_raycast.h"
 
@@ -42,6 +46,7 @@ constexpr int frames = 2;
 const std::map<std::string, std::vector<std::string>> decidingValues{
     {"shadow_cells", {"0", "2"}},
     {"vorticity", {"0", "2"}},
+    {"rank", {"2", "4"}},
     {"scheme", {"ours"}},  // the demo needs a fixed box, see below
     {"at",
      {"0s:render.part=points", "0s:render.part=points;0s:render.round=on",
@@ -81,10 +86,15 @@ const std::vector<Product> products{
     {"exact_tiles", {}, {}, true},
     {"linked_list", {}, {"puff"}, true},
     {"multi_layer", {}, {"puff"}, true},
+    {"adaptive_transparency", {}, {"puff"}, true},
     {"weighted_oit", {}, {"weight"}, true},
+    {"weighted_oit", {}, {"puff", "accumulation", "revealage"}, true},
     {"offscreen_particles", {}, {"upsampling", "edges"}, true},
     {"stochastic_transparency", {}, {"puff", "stratified", "alpha_correction"}, true},
     {"moment_oit", {}, {"moments", "profile", "samples", "warp"}, true},
+    {"wavelet_oit", {}, {"puff", "warp", "bounds"}, true},
+    {"wavelet_oit", {}, {"rank"}, true},
+    {"moment_oit", {}, {"moments", "basis", "precision", "puff"}, true},
 };
 
 std::vector<std::string> valuesOf(const Parameter& parameter) {
@@ -296,7 +306,29 @@ void runExperiments(gpu::Device& device) {
         if (info.id == "bandwidth") (void)info.run(context);
 }
 
+/// The sort in every way, and scan, compaction and reductions, with a number of elements from a buffer.
+void sortNumbers(gpu::Device& device) {
+    using namespace gpu;
+    const std::vector<std::uint32_t> numbers{3, 1, 2};
+    const Buffer given(device, "numbers", std::span<const std::uint32_t>(numbers));
+    Buffer a(device, "a", 12), b(device, "b", 12), count(device, "count", std::span<const std::uint32_t>(numbers));
+    DepthKeys(device, 3).write(given, count, DepthOrder::frontToBack, a, b);
+    InclusiveScan(device, 3).scan(given, a, count);
+    for (const Reduce operation : {Reduce::sum, Reduce::minimum, Reduce::maximum})
+        for (const Number number : {Number::uint32, Number::float32})
+            Reduction(device, 3, operation, number).reduce(given, count, a);
+    for (const auto& earlier : earlierTilesChoices.all())
+        for (const auto& ranks : warpRanksChoices.all()) try {
+                RadixSort(device, 3, {earlier.value, ranks.value}).sort(a, b, count);
+            } catch (const std::runtime_error&) {
+                // Mesa refuses subgroups and does not look back. The reference compiler checks those programs.
+                if (!device.isSoftware()) throw;
+            }
+    Compaction(device, 3).compact(given, given, 3u, a, count);
+}
+
 void drawEverything(gpu::Device& device) {
+    sortNumbers(device);
     (void)bench::correctnessChecks(device);
     (void)bench::measureRates(device, [] {});
     const bench::SplitView twoPictures(device);

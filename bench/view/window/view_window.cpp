@@ -1,6 +1,7 @@
 #include "bench/view/window/view_window.h"
 
 #define GLFW_INCLUDE_NONE
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <GLFW/glfw3.h>
 
@@ -20,6 +21,7 @@
 #include "bench/view/window/window_output.h"
 #include "bench/view/window_settings.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/loaded_library.h"
 
 namespace dustbench::bench {
 namespace {
@@ -36,10 +38,22 @@ InputError cannotOpen() {
                       "; --picture FILE draws one frame without a window");
 }
 
+#ifdef DUSTBENCH_PORTABLE
+/// The portable program is not linked with GLFW, which needs the host's X11 libraries; the other commands run without
+/// them. Its calls of GLFW find the library once it is loaded.
+void loadGlfw() {
+    if (!dlopen(files::besideKit("libglfw.so.3").c_str(), RTLD_LAZY | RTLD_GLOBAL))
+        throw InputError(std::string("view: a library is missing on this machine: ") + dlerror());
+}
+#else
+void loadGlfw() {}
+#endif
+
 /// Initialises GLFW's library, and ends it on destruction.
 class Library {
  public:
     Library() {
+        loadGlfw();
         glfwSetErrorCallback([](int, const char* text) { lastProblem() = text; });
 #ifdef GLFW_PLATFORM  // 3.4 or newer: it asks Wayland first, whose library prints a line of its own without this
                       // variable
@@ -152,10 +166,14 @@ PadState readPad() {
     return pad;
 }
 
-using WindowOwner = std::unique_ptr<GLFWwindow, decltype(&glfwDestroyWindow)>;
+/// A call, unlike the function's address, needs GLFW only when it is made (loadGlfw).
+struct DestroyWindow {
+    void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
+};
+using WindowOwner = std::unique_ptr<GLFWwindow, DestroyWindow>;
 
 WindowOwner createWindow(const ImageSize& size) {
-    return {glfwCreateWindow(size.width, size.height, "dustbench view", nullptr, nullptr), &glfwDestroyWindow};
+    return WindowOwner(glfwCreateWindow(size.width, size.height, "dustbench view", nullptr, nullptr));
 }
 
 /// Creates a window whose context reports its loss, if the driver supports that.

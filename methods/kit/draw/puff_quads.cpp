@@ -62,6 +62,15 @@ void PuffQuads::add(const gpu::Program& program, const gpu::Texture& sceneDepth)
     drawInstances(program, state);
 }
 
+void PuffQuads::addAndReveal(const gpu::Program& program, const gpu::Texture& sceneDepth) {
+    if (count() == 0) return;
+    sceneDepth.bind(0);
+    gpu::DrawState state;
+    state.blend = gpu::Blend::additive;
+    state.blendOfOutput1 = gpu::Blend::revealing;
+    drawInstances(program, state);
+}
+
 void PuffQuads::store(const gpu::Program& program, const gpu::Texture& sceneDepth) {
     if (count() == 0) return;
     sceneDepth.bind(0);

@@ -35,6 +35,8 @@ class DUSTBENCH_API PuffQuads : public InstanceBatch {
     [[nodiscard]] gpu::Program& begin(FragmentPass& pass, const scene::View& view);
     /// Adds the puffs up in the bound framebuffer. `sceneDepth` is at unit 0.
     void add(const gpu::Program& program, const gpu::Texture& sceneDepth);
+    /// Adds output 0, and multiplies what is at output 1 by 1 − its value.
+    void addAndReveal(const gpu::Program& program, const gpu::Texture& sceneDepth);
     /// Runs a pass that stores to buffers and discards its fragments. `sceneDepth` is at unit 0.
     void store(const gpu::Program& program, const gpu::Texture& sceneDepth);
 

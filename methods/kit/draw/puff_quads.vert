@@ -14,12 +14,6 @@ flat out int puffIndex;  // the puff's place in the upload
 flat out vec3 puffColour;
 #endif
 
-/// −log2(1 − α)·ln 2 = τ; a series for small α, where 1 − α would lose digits.
-float opticalDepth(float opacity) {
-    if (opacity > 0.05) return -log(1.0 - opacity);
-    return opacity * (1.0 + opacity * (1.0 / 2 + opacity * (1.0 / 3 + opacity * (1.0 / 4 + opacity / 5))));
-}
-
 void main() {
     int wanted = gl_InstanceID * SHAPES_AT_ONCE + (gl_VertexID >> 2);
     int base = min(wanted, count - 1) * FLOATS;

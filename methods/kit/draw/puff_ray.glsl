@@ -29,6 +29,12 @@ float opacityOf(float depth) {
     return depth < 0.01 ? depth * (1.0 - depth * (0.5 - depth * (1.0 / 6.0))) : 1.0 - exp(-depth);
 }
 
+/// −log2(1 − α)·ln 2 = τ; a series for small α, where 1 − α would lose digits.
+float opticalDepth(float opacity) {
+    if (opacity > 0.05) return -log(1.0 - opacity);
+    return opacity * (1.0 + opacity * (1.0 / 2 + opacity * (1.0 / 3 + opacity * (1.0 / 4 + opacity / 5))));
+}
+
 /// The ray through a place of the picture (gl_FragCoord.xy), of length 1 along the camera's axis; eye space.
 vec3 rayThrough(vec2 place, vec4 rays) {
     return vec3(place * rays.xy + rays.zw, -1.0);

@@ -4,8 +4,11 @@
 
 namespace dustbench::draw {
 
-SumTargets::SumTargets(gpu::Device& device, std::string label, std::vector<gpu::Format> formats)
-    : device_(&device), label_(std::move(label)), formats_(std::move(formats)) {}
+SumTargets::SumTargets(gpu::Device& device, std::string label, std::vector<gpu::Format> formats,
+                       std::vector<float> initial)
+    : device_(&device), label_(std::move(label)), formats_(std::move(formats)), initial_(std::move(initial)) {
+    initial_.resize(formats_.size(), 0);
+}
 
 void SumTargets::begin(int width, int height) {
     if (textures_.empty() || textures_.front().width() != width || textures_.front().height() != height) {
@@ -19,7 +22,7 @@ void SumTargets::begin(int width, int height) {
         framebuffer_ = gpu::Framebuffer(*device_, label_, std::span<const gpu::Texture* const>(colours));
         textures_ = std::move(textures);
     }
-    framebuffer_.clearColour(0, 0, 0, 0);
+    for (std::size_t i = 0; i < initial_.size(); ++i) framebuffer_.clearOutput(static_cast<int>(i), initial_[i]);
     framebuffer_.bind();
 }
 

@@ -1,4 +1,4 @@
-// Textures of one size that passes add to, with a framebuffer for all of them.
+// Textures of one size that passes blend into, with a framebuffer for all of them.
 //
 // Owns: the textures. Threads: the OpenGL thread.
 #pragma once
@@ -14,10 +14,11 @@ namespace dustbench::draw {
 
 class DUSTBENCH_API SumTargets {
  public:
-    /// Their bytes are booked under the name `label`.
-    SumTargets(gpu::Device& device, std::string label, std::vector<gpu::Format> formats);
+    /// Their bytes are booked under the name `label`. `initial`: the value that each is cleared to; 0 if left out.
+    SumTargets(gpu::Device& device, std::string label, std::vector<gpu::Format> formats,
+               std::vector<float> initial = {});
 
-    /// Fits them to the given size, clears them to 0 and binds them.
+    /// Fits them to the given size, clears and binds them.
     void begin(int width, int height);
     [[nodiscard]] const gpu::Texture& texture(std::size_t i) const { return textures_.at(i); }
     [[nodiscard]] std::size_t gpuBytes() const;
@@ -26,6 +27,7 @@ class DUSTBENCH_API SumTargets {
     gpu::Device* device_;
     std::string label_;
     std::vector<gpu::Format> formats_;
+    std::vector<float> initial_;
     std::vector<gpu::Texture> textures_;
     gpu::Framebuffer framebuffer_;
 };

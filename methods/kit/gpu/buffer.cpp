@@ -45,6 +45,13 @@ void Buffer::readBytes(void* data, std::size_t bytes) const {
     if (bytes > 0) glGetNamedBufferSubData(name_.get(), 0, static_cast<GLsizeiptr>(bytes), data);
 }
 
+void Buffer::copyFrom(const Buffer& other, std::size_t bytes) {
+    requireFit(bytes, this->bytes());
+    requireFit(bytes, other.bytes());
+    if (bytes > 0) glCopyNamedBufferSubData(other.name_.get(), name_.get(), 0, 0, static_cast<GLsizeiptr>(bytes));
+    throwOnDebugOutput("copying a buffer");
+}
+
 void Buffer::clear() {
     const std::uint32_t zero = 0;
     if (bytes() % sizeof(zero) == 0)

@@ -42,6 +42,9 @@ class DUSTBENCH_API Buffer {
         readBytes(data.data(), data.size_bytes());
     }
 
+    /// Replaces the first `bytes` by those of another buffer, on the GPU. Throws std::out_of_range if they do not fit.
+    void copyFrom(const Buffer& other, std::size_t bytes);
+
     /// Sets all bytes to 0.
     void clear();
 

@@ -135,6 +135,17 @@ bool Device::offers(const std::string& extension) const {
     return epoxy_has_gl_extension(extension.c_str());
 }
 
+int Device::subgroupThreads() const {
+    if (!offers("GL_KHR_shader_subgroup")) return 0;
+    constexpr GLint needed = GL_SUBGROUP_FEATURE_BASIC_BIT_KHR | GL_SUBGROUP_FEATURE_ARITHMETIC_BIT_KHR |
+                             GL_SUBGROUP_FEATURE_BALLOT_BIT_KHR | GL_SUBGROUP_FEATURE_SHUFFLE_BIT_KHR;
+    GLint threads = 0, stages = 0, features = 0;
+    glGetIntegerv(GL_SUBGROUP_SIZE_KHR, &threads);
+    glGetIntegerv(GL_SUBGROUP_SUPPORTED_STAGES_KHR, &stages);
+    glGetIntegerv(GL_SUBGROUP_SUPPORTED_FEATURES_KHR, &features);
+    return (stages & GL_COMPUTE_SHADER_BIT) != 0 && (features & needed) == needed ? threads : 0;
+}
+
 bool Device::isSoftware() const {
     return isSoftwareRenderer(info_.renderer);
 }

@@ -51,6 +51,8 @@ class DUSTBENCH_API Device {
     [[nodiscard]] std::size_t maximumStorageBytes() const;
     /// Whether OpenGL has this extension: `GL_ARB_gpu_shader_int64`.
     [[nodiscard]] bool offers(const std::string& extension) const;
+    /// Threads of a subgroup in compute shaders; 0 if shaders cannot exchange values within it (ballot, shuffle, sums).
+    [[nodiscard]] int subgroupThreads() const;
     /// True if OpenGL runs on the CPU.
     [[nodiscard]] bool isSoftware() const;
     /// Blocks until all queued work is done.

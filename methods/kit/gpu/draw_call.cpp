@@ -2,6 +2,8 @@
 
 #include <epoxy/gl.h>
 
+#include <utility>
+
 #include "methods/kit/gpu/debug_output.h"
 
 namespace dustbench::gpu {
@@ -30,14 +32,32 @@ void finish(const DrawState& state, const char* what) {
     throwOnDebugOutput(what);
 }
 
+std::pair<GLenum, GLenum> factorsOf(Blend blend) {
+    switch (blend) {
+        case Blend::none:
+            return {GL_ONE, GL_ZERO};
+        case Blend::premultiplied:
+            return {GL_ONE, GL_ONE_MINUS_SRC_ALPHA};
+        case Blend::additive:
+            return {GL_ONE, GL_ONE};
+        case Blend::revealing:
+            return {GL_ZERO, GL_ONE_MINUS_SRC_COLOR};
+    }
+    return {GL_ONE, GL_ZERO};
+}
+
 void prepare(const Program& program, const VertexArray& vertices, const DrawState& state) {
     enable(GL_DEPTH_TEST, state.depthTest || state.depthWrite);
     glDepthFunc(state.depthTest ? GL_GEQUAL : GL_ALWAYS);
     glDepthMask(state.depthWrite ? GL_TRUE : GL_FALSE);
     enable(GL_CULL_FACE, state.cullBackFaces);
     enable(GL_BLEND, state.blend != Blend::none);
-    if (state.blend == Blend::premultiplied) glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    if (state.blend == Blend::additive) glBlendFunc(GL_ONE, GL_ONE);
+    const auto [source, destination] = factorsOf(state.blend);
+    glBlendFunc(source, destination);
+    if (state.blendOfOutput1) {
+        const auto [source1, destination1] = factorsOf(*state.blendOfOutput1);
+        glBlendFunci(1, source1, destination1);
+    }
     program.use();
     vertices.bind();
 }

@@ -1,6 +1,8 @@
 // Fixed-function state and draw calls. Every draw sets all of its state, so that no state leaks into the next pass.
 #pragma once
 
+#include <optional>
+
 #include "methods/kit/gpu/program.h"
 #include "methods/kit/gpu/vertex_array.h"
 
@@ -10,12 +12,14 @@ enum class Blend {
     none,
     premultiplied,  ///< C = Cs + (1 − αs)·Cd, the same for α
     additive,       ///< C = Cs + Cd
+    revealing,      ///< C = (1 − Cs)·Cd
 };
 
 struct DrawState {
     bool depthTest = false;  ///< passes where nearer or equal (reversed depth)
     bool depthWrite = false;
     Blend blend = Blend::none;
+    std::optional<Blend> blendOfOutput1{};  ///< if it differs from `blend`; neither may be `none`
     bool cullBackFaces = false;
     bool storesToBuffers = false;  ///< subsequent commands see what the shaders store
 };

@@ -62,6 +62,11 @@ void Framebuffer::clearColour(float red, float green, float blue, float alpha) c
     for (int i = 0; i < colours_; ++i) glClearNamedFramebufferfv(name_.get(), GL_COLOR, i, value.data());
 }
 
+void Framebuffer::clearOutput(int output, float value) const {
+    const std::array<float, 4> values{value, value, value, value};
+    glClearNamedFramebufferfv(name_.get(), GL_COLOR, output, values.data());
+}
+
 void Framebuffer::clearDepth() const {
     const float farthest = 0;
     glDepthMask(GL_TRUE);  // clears respect the depth mask

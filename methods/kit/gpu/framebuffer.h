@@ -25,6 +25,8 @@ class DUSTBENCH_API Framebuffer {
     void bind() const;
     /// Clears all colours.
     void clearColour(float red, float green, float blue, float alpha) const;
+    /// Clears the colour of one output to `value` in all channels.
+    void clearOutput(int output, float value) const;
     /// Clears to 0, the far end of the reversed depth range.
     void clearDepth() const;
     /// Copies the colour to the lower left corner of the current context's window.

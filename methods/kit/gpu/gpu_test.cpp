@@ -75,6 +75,40 @@ TEST(Buffer, RefusesMoreThanItHolds) {
     EXPECT_THROW((void)buffer.mapForWriting(9), std::out_of_range);
 }
 
+TEST(Buffer, CopiesTheStartOfAnother) {
+    Device device;
+    const std::vector<int> numbers{1, 2, 3, 4}, others{5, 6, 7};
+    const Buffer from(device, "from", std::span<const int>(numbers));
+    Buffer to(device, "to", std::span<const int>(others));
+    to.copyFrom(from, 2 * sizeof(int));
+    std::vector<int> found(3);
+    to.read(std::span<int>(found));
+    EXPECT_EQ(found, (std::vector<int>{1, 2, 7}));
+    EXPECT_THROW(to.copyFrom(from, 4 * sizeof(int)), std::out_of_range);
+}
+
+constexpr ShaderFile groupsComp{"test/groups.comp", R"(
+layout(local_size_x = 1) in;
+layout(std430, binding = 0) buffer Groups { uint groups, x, y, z; };
+void main() {
+    atomicAdd(groups, 1u);
+    atomicMax(x, gl_WorkGroupID.x), atomicMax(y, gl_WorkGroupID.y), atomicMax(z, gl_WorkGroupID.z);
+})"};
+
+TEST(Program, TakesItsWorkGroupsFromABuffer) {
+    Device device;
+    const Program program(device, "groups", {groupsComp});
+    const std::vector<std::uint32_t> sizes{9, 4, 3, 2};
+    const Buffer arguments(device, "arguments", std::span<const std::uint32_t>(sizes));
+    Buffer result(device, "groups", 4 * sizeof(std::uint32_t));
+    result.clear();
+    result.bindStorage(0);
+    program.dispatchIndirect(arguments, sizeof(std::uint32_t));
+    std::vector<std::uint32_t> found(4);
+    result.read(std::span<std::uint32_t>(found));
+    EXPECT_EQ(found, (std::vector<std::uint32_t>{24, 3, 2, 1}));
+}
+
 TEST(Ledger, CountsEveryByteAndForgetsWhatIsFreed) {
     Device device;
     const std::size_t before = device.ledger().totalBytes();

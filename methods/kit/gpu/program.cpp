@@ -130,4 +130,12 @@ void Program::dispatch(int groupsX, int groupsY, int groupsZ) const {
     throwOnDebugOutput(label_);
 }
 
+void Program::dispatchIndirect(const Buffer& groups, std::size_t firstByte) const {
+    use();
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups.name().get());
+    glDispatchComputeIndirect(static_cast<GLintptr>(firstByte));
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+    throwOnDebugOutput(label_);
+}
+
 }  // namespace dustbench::gpu

@@ -4,6 +4,7 @@
 // shared `.glsl` pieces are prepended, so that compile errors name the file and its own line.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
@@ -14,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/device.h"
 #include "methods/kit/gpu/name.h"
 #include "methods/kit/gpu/shader_file.h"
@@ -43,6 +45,8 @@ class DUSTBENCH_API Program {
     void use() const;
     /// Runs a compute program over the given work groups and makes its writes visible to subsequent commands.
     void dispatch(int groupsX, int groupsY, int groupsZ) const;
+    /// The same, with the three numbers of work groups read from a buffer when the command runs.
+    void dispatchIndirect(const Buffer& groups, std::size_t firstByte) const;
 
  private:
     [[nodiscard]] int location(std::string_view uniform);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "methods/kit/gpu/debug_output.h"
+#include "methods/kit/gpu/mip_levels.h"
 
 namespace dustbench::gpu {
 namespace {
@@ -126,8 +127,29 @@ void Texture::writeTexels(int firstLayer, int layers, const void* values, std::s
         glTextureSubImage2D(name_.get(), 0, 0, 0, width_, height_, names.channels, type, values);
     else
         glTextureSubImage3D(name_.get(), 0, 0, 0, firstLayer, width_, height_, layers, names.channels, type, values);
-    if (mipmapped_) glGenerateTextureMipmap(name_.get());
+    if (mipmapped_ && names.bytes && kind_ != Kind::volume)
+        writeMipLevels(firstLayer, layers, static_cast<const std::uint8_t*>(values), expected);
+    else if (mipmapped_)
+        glGenerateTextureMipmap(name_.get());
     throwOnDebugOutput("writing a texture");
+}
+
+void Texture::writeMipLevels(int firstLayer, int layers, const std::uint8_t* values, std::size_t count) {
+    const FormatNames names = namesOf(format_);
+    const std::size_t ofLayer = count / static_cast<std::size_t>(layers);
+    for (int layer = 0; layer < layers; ++layer) {
+        const std::span texture(values + static_cast<std::size_t>(layer) * ofLayer, ofLayer);
+        GLint level = 0;
+        for (const MipLevel& mip : mipLevelsOf(texture, width_, height_, names.count, format_ == Format::srgba8)) {
+            ++level;
+            if (kind_ == Kind::flat)
+                glTextureSubImage2D(name_.get(), level, 0, 0, mip.width, mip.height, names.channels, GL_UNSIGNED_BYTE,
+                                    mip.values.data());
+            else
+                glTextureSubImage3D(name_.get(), level, 0, 0, firstLayer + layer, mip.width, mip.height, 1,
+                                    names.channels, GL_UNSIGNED_BYTE, mip.values.data());
+        }
+    }
 }
 
 void Texture::write(std::span<const std::uint8_t> values) {

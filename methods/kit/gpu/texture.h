@@ -30,13 +30,15 @@ class DUSTBENCH_API Texture {
                                         int depth, Filter filter = Filter::linear);
 
     /// All texels, tightly packed in the texture's own channels: bytes for the 8-bit formats, floats for the others.
-    /// Generates mipmaps if the filter needs them. Throws std::invalid_argument for a wrong number of values.
+    /// Writes the mip levels too if the filter needs them: of 8-bit formats by `mipLevelsOf`, equal on all devices.
+    /// Throws std::invalid_argument for a wrong number of values.
     void write(std::span<const std::uint8_t> values);
     void write(std::span<const float> values);
     /// Writes `width` × `height` texels of a 2D texture of 8-bit channels, starting at (column, row). Mipmaps stay
     /// unchanged until `makeMipmaps`. Throws std::invalid_argument for a wrong number of values, or if the texels lie
     /// outside of the texture.
     void writeRectangle(int column, int row, int width, int height, std::span<const std::uint8_t> values);
+    /// By the driver, which is fast enough for every frame; drivers round differently.
     void makeMipmaps();
     /// Writes one layer of an array.
     void writeLayer(int layer, std::span<const std::uint8_t> values);
@@ -61,6 +63,7 @@ class DUSTBENCH_API Texture {
     Texture(Device& device, std::string_view label, Kind kind, Format format, int width, int height, int depth,
             Filter filter, Wrap wrap);
     void writeTexels(int firstLayer, int layers, const void* values, std::size_t count, std::size_t valueBytes);
+    void writeMipLevels(int firstLayer, int layers, const std::uint8_t* values, std::size_t count);
 
     Name name_;
     Booking booking_;

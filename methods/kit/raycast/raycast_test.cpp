@@ -45,6 +45,11 @@ TEST_P(GridRaycastOn, ShowsAHomogeneousBoxAsTheAnalyticImage) {
     }
 }
 
+/// GPUs weight the texels of a filtered sample in steps of 1/256; llvmpipe weights them in floats.
+double gpuTolerance(double inSoftware) {
+    return Canvas::device().isSoftware() ? inSoftware : 5e-3;
+}
+
 TEST(GridRaycast, ShowsTheSameOnCpuAndGpu) {
     Canvas canvas;
     canvas.setWall(9.5, 70);
@@ -65,7 +70,7 @@ TEST(GridRaycast, ShowsTheSameOnCpuAndGpu) {
                 if (filter == Filter::nearest)
                     EXPECT_LT(pixelsApart(image, onGpu, 2e-4), 0.005 * 96 * 72) << eye.x << burning;
                 else
-                    EXPECT_LT(maximumDifference(image, onGpu), 2e-4) << eye.x << burning;
+                    EXPECT_LT(maximumDifference(image, onGpu), gpuTolerance(2e-4)) << eye.x << burning;
                 EXPECT_GT(meanAlpha(image), 0.001);
             }
     }
@@ -97,7 +102,7 @@ TEST(GridRaycast, ShowsWhatLiesOnTheGpuAsWhatIsUploaded) {
             raycast.take(textures);
             const pictures::Image image =
                 canvas.TestCanvas::picture([&](const gpu::Layer& layer) { raycast.draw(canvas.view, layer); });
-            EXPECT_LT(maximumDifference(image, canvas.picture(grid, settings)), 2e-4) << burning;
+            EXPECT_LT(maximumDifference(image, canvas.picture(grid, settings)), gpuTolerance(2e-4)) << burning;
             EXPECT_GT(meanAlpha(image), 0.001);
 
             // The last grid counts, whether uploaded or taken.
@@ -131,6 +136,7 @@ TEST_P(GridRaycastOn, EqualsThePlainMarch) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> centred(-1, 1);
     const glm::dvec3 forwardTo(0.2, -0.1, 0.3);
+    const double limit = GetParam() == Backend::cpu ? 3e-5 : gpuTolerance(3e-5);
     for (int set = 0; set < 16; ++set) {
         const TestGrid grid = randomGrid(random, set % 2 == 1);
         RaycastSettings settings = settingsOf(GetParam());
@@ -159,12 +165,12 @@ TEST_P(GridRaycastOn, EqualsThePlainMarch) {
                 const double jitter = settings.jitter ? plainJitter(x, image.height - 1 - y) : 0;
                 const glm::dvec4 plain = plainMarch(volume, {inCells, along, end, jitter});
                 const glm::dvec4 off = glm::abs(glm::dvec4(image.at(x, y)) - plain);
-                if (settings.filter == Filter::nearest && glm::any(glm::greaterThan(off, glm::dvec4(3e-5)))) {
+                if (settings.filter == Filter::nearest && glm::any(glm::greaterThan(off, glm::dvec4(limit)))) {
                     ++apart;
                     continue;
                 }
                 for (int channel = 0; channel < 4; ++channel)
-                    ASSERT_LT(off[channel], 3e-5)
+                    ASSERT_LT(off[channel], limit)
                         << "set " << set << " pixel " << x << ',' << y << " channel " << channel;
             }
         EXPECT_LT(apart, 0.005 * image.width * image.height) << "set " << set;

@@ -191,7 +191,8 @@ TEST_F(ReliefPassTest, NoPixelIsLostWhereThePlateReachesBehindTheEye) {
         all.seen += found.seen, all.missed += found.missed, all.differ += found.differ;
     }
     EXPECT_GT(all.seen, 60 * width * height / 4);
-    EXPECT_LE(all.missed + all.differ, all.seen / 10'000);
+    // GPUs place the plate's edges in steps of 1/256 of a pixel.
+    EXPECT_LE(all.missed + all.differ, all.seen / (device_.isSoftware() ? 10'000 : 5'000));
 }
 
 // Within the plate: a camera in a pit sees its floor and walls; within the solid it sees through it.
