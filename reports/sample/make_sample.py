@@ -103,7 +103,8 @@ def draw_group(program, name):
     kept = HERE / name
     for old in kept.glob("*.svg"):
         old.unlink()
-    subprocess.run([program, "report", kept, "--chart", "all", "--out", kept], check=True)
+    for chart in ("all", "transparency-quick-quality", "aizenshtein2022-bits-quick-quality"):
+        subprocess.run([program, "report", kept, "--chart", chart, "--out", kept], check=True)
 
 
 def measure_full(program, paper):
