@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+#include <string>
+
 #include "bench/recommend/test_table.h"
 #include "source_folder.h"
 
@@ -132,6 +136,22 @@ TEST_F(Sample, SaysWhatItWasMeasuredOn) {
     ASSERT_THAT(runs.machines, SizeIs(1));
     EXPECT_THAT(runs.machines.front().fields.at("gl_renderer"), HasSubstr("llvmpipe"));
     EXPECT_THAT(runs.machines.front().commits, SizeIs(1));
+}
+
+/// The committed sample of transparency: haze, a cloud and dense smoke.
+TEST(TransparencySample, AnswersOverEveryMethodFromHazeToDenseSmoke) {
+    const Rankings rankings = rankSettings(readMeasuredRuns(DUSTBENCH_SOURCE_DIR "/reports/sample/transparency"), psnr);
+    for (const char* particles : {"20", "100", "700"}) {
+        std::size_t methods = 0;
+        for (const Ranking& ranking : rankings.rankings) {
+            if (ranking.world.at("scene") != "smoke" || ranking.world.at("particles") != particles) continue;
+            std::set<std::string> ranked;
+            for (const MeasuredSetting& setting : ranking.settings) ranked.insert(setting.method);
+            methods = std::max(methods, ranked.size());
+            EXPECT_TRUE(recommend(ranking, psnr, 1e6).recommended) << particles;
+        }
+        EXPECT_EQ(methods, 9u) << particles;
+    }
 }
 
 }  // namespace

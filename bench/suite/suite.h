@@ -37,8 +37,9 @@ struct ChartView {
     std::string against;
 };
 /// The costs that charts show the error of pictures against.
-inline constexpr std::array<std::string_view, 6> chartCosts{"frame_ms_median", "method_ms_median", "memory_bytes",
-                                                            "gpu_bytes",       "cpu_bytes",        "primitives_median"};
+inline constexpr std::array<std::string_view, 7> chartCosts{"frame_ms_median",  "method_ms_median", "memory_bytes",
+                                                            "gpu_bytes",        "cpu_bytes",        "bits_per_pixel",
+                                                            "primitives_median"};
 
 struct Suite {
     std::string id;

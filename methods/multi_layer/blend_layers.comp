@@ -2,7 +2,7 @@
 // that reach into its tile, 64 at a time, and keeps their order.
 // SURFACE: a surface at the centre's depth with the alpha of the whole puff along the ray. Otherwise the puff is cut by
 // eye and scene and lies at the point on the ray nearest to its centre. Depths are in metres along the camera's axis.
-// Source: SalviVaidyanathan2014, 3. Departs: tiles of a compute shader instead of pixel synchronisation.
+// Source: SalviVaidyanathan2014. Departs: tiles of a compute shader instead of pixel synchronisation.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 struct Puff {

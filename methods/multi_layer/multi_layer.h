@@ -7,7 +7,7 @@
 // which is the draw order of the paper, and keeps the layers of its pixel. The picture hence is the same each time.
 //
 // Units: metres. Colours: linear RGB, premultiplied.
-// Source: SalviVaidyanathan2014, 3. Departs: tiles of a compute shader instead of pixel synchronisation; layers in
+// Source: SalviVaidyanathan2014. Departs: tiles of a compute shader instead of pixel synchronisation; layers in
 // single precision, 160 bits each.
 #pragma once
 

@@ -11,7 +11,7 @@ uvec4 randomWords(uvec2 key, uvec4 counter) {
 }
 
 /// Samples that a surface covers, a bit each.
-/// Source: EndertonEtAl2010, section 3.1 (stratified: ⌊α·S + ξ⌋ of S samples), section 3 (each with probability α).
+/// Source: EndertonEtAl2010, section 3.1 (stratified: ⌊α·S + ξ⌋ of S samples; else each with probability α).
 uvec2 randomMask(uvec2 key, uvec2 serial, float alpha) {
     uvec2 mask = uvec2(0);
     uvec4 words = randomWords(key, uvec4(serial, STREAM, 0));

@@ -1,5 +1,5 @@
 // Second pass: Σ v·α·c and Σ v·α of the puffs, v the share of samples in which nothing is nearer; and Σ τ.
-// Source: EndertonEtAl2010, section 3.3 (depth-based). Departs: Π(1 − α) is exp(−Σ τ).
+// Source: EndertonEtAl2010, section 3 (depth-based). Departs: Π(1 − α) is exp(−Σ τ).
 flat in vec4 centre;
 flat in float logDepth;
 #ifdef COLOURED

@@ -1,7 +1,7 @@
 // Stochastic transparency: each puff covers a random share α of a pixel's samples, and each sample keeps the nearest
 // surface. A second pass adds up the puffs in any order, each weighted by the share of samples in which it is seen.
 //
-// Source: EndertonEtAl2010, sections 3 to 3.3: stratified masks, alpha correction, the depth-based variant. Departs:
+// Source: EndertonEtAl2010, section 3: stratified masks, alpha correction, the depth-based variant. Departs:
 // samples are in a buffer with atomic maxima instead of a multisampled target, so that 1 to 64 samples are possible
 // and every driver draws the same masks. 1 − Π(1 − α) is 1 − exp(−Σ τ), which is equal. Sums are in single precision.
 // Without alpha correction the mean over seeds is exact; with it the alpha is exact, and so is dust of one colour.
@@ -34,7 +34,7 @@ struct Settings {
 inline constexpr std::uint32_t stream = 57;  ///< of the random numbers
 
 /// The samples that a puff covers at a pixel (counted from the lower left), a bit each. The shader's oracle.
-/// Source: EndertonEtAl2010, sections 3 and 3.1.
+/// Source: EndertonEtAl2010, section 3.1.
 [[nodiscard]] std::uint64_t plainMask(const Settings& settings, std::uint64_t seed, std::uint32_t pixel,
                                       std::uint32_t puff, float alpha);
 

@@ -6,6 +6,8 @@
                                                 PAPER/full; `make full PAPER=…` calls it
     make_sample.py --charts PROGRAM [PAPER …]   draws the charts of the full runs from their tables, PAPER/SUITE.svg
     make_sample.py --write                      updates README.md from this folder
+    make_sample.py PROGRAM GROUP                measures the quick runs of a group of papers that share runs, and draws their charts; keeps
+                                                only tables and charts
     make_sample.py --check                      exits with 1 if README.md and this folder disagree, or if PAPER/full/README.md
                                                 does not mention a claim whose verdict differs from that of the quick run
 """
@@ -23,9 +25,15 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 README = ROOT / "README.md"
 OUT = ROOT / "reports" / "out" / "sample"
-PAPERS = sorted(folder.parent.name for folder in (ROOT / "data" / "papers").glob("*/paper.toml"))
+# Papers that share runs: one folder for all, with further suites of our own.
+GROUPS = {"transparency": {
+    "papers": ["enderton2010", "aizenshtein2022", "munstermann2018", "mcguire2013", "salvi2011", "salvi2014", "yang2010", "cantlay2007"],
+    "suites": ["transparency"]}}
+GROUPED = {paper for group in GROUPS.values() for paper in group["papers"]}
+PAPERS = sorted(folder.parent.name for folder in (ROOT / "data" / "papers").glob("*/paper.toml") if folder.parent.name not in GROUPED)
 PAPER, SUITE = "carr2006", "carr2006-compare-quick"  # shown in README.md
 BEGIN, END = "<!-- sample: `make sample` writes what follows -->\n", "<!-- end of sample -->\n"
+GUIDE = ROOT / "reports" / "guide" / "which-transparency.md"  # with a table of the group `transparency`
 MACHINE = ("cpu", "cores", "gl_renderer", "git_commit", "started_utc")
 TABLES = ("summary.csv", "claims.csv", "experiments.csv")
 
@@ -72,6 +80,31 @@ def measure(program, paper):
         for chart in (SUITE, SUITE + "-stages"):
             subprocess.run([program, "report", out, "--chart", chart, "--format", "png"], check=True)
             shutil.copy(out / "charts" / f"{chart}.png", kept)
+
+
+def measure_group(program, name):
+    """Resumes an interrupted measurement, as measure_full does."""
+    out, kept = OUT / name, HERE / name
+    goes_on = any(out.glob("runs/*/run.json"))
+    seconds, claims = 0, ""
+    for paper in GROUPS[name]["papers"]:
+        seconds += seconds_of([program, "reproduce", "--paper", paper, "--quick", "--controls", "--out", out])
+        head, _, rows_of_paper = (out / "claims.csv").read_text(encoding="utf-8").partition("\n")
+        claims += rows_of_paper if claims else head + "\n" + rows_of_paper
+    for suite in GROUPS[name]["suites"]:
+        seconds += seconds_of([program, "suite", suite, "--quick", "--out", out])
+    keep(out, kept, ("summary.csv",), {"quick_seconds": "" if goes_on else seconds})
+    (kept / "claims.csv").write_text(claims, encoding="utf-8")
+    draw_group(program, name)
+
+
+def draw_group(program, name):
+    """Draws the charts of the group's suites from its tables alone."""
+    kept = HERE / name
+    for old in kept.glob("*.svg"):
+        old.unlink()
+    for chart in ("all", "transparency-quick-quality", "aizenshtein2022-bits-quick-quality"):
+        subprocess.run([program, "report", kept, "--chart", chart, "--out", kept], check=True)
 
 
 def measure_full(program, paper):
@@ -145,23 +178,63 @@ def block():
                      "", END.rstrip("\n"), ""])
 
 
-def readme_parts():
-    text = README.read_text(encoding="utf-8")
+def setting_of(row):
+    """`moment_oit mode=paper moments=6 precision=quantised`: the parameters that the suite sets."""
+    named = {"offscreen_particles": ["scale"], "weighted_oit": ["mode"], "moment_oit": ["mode", "moments", "precision"],
+             "wavelet_oit": ["rank", "coefficients"], "stochastic_transparency": ["samples"], "multi_layer": ["layers"],
+             "adaptive_transparency": ["nodes"]}
+    return " ".join([row["method"]] + [f"{name}={row[f'p.{name}']}" for name in named.get(row["method"], [])])
+
+
+def guide_block():
+    """A row for each setting of the suite `transparency`: medians over the seeds, best first."""
+    with open(HERE / "transparency" / "summary.csv", encoding="utf-8", newline="") as stream:
+        runs = [row for row in csv.DictReader(stream) if row["scene"] == "smoke" and row["p.light"] == "none" and row["frames"] == "6"
+                and row["status"] == "done" and row["method"] != "null_method"]
+    loads = sorted({int(row["p.particles"]) for row in runs})
+
+    def median(setting, column, load):
+        values = [float(row[column]) for row in runs if setting_of(row) == setting and int(row["p.particles"]) == load and row[column]]
+        return statistics.median(values) if values else None
+
+    def text(value, form):
+        return "" if value is None else format(value, form)
+    settings = sorted({setting_of(row) for row in runs}, key=lambda setting: median(setting, "flip_mask", loads[-1]))
+    lines = [BEGIN.rstrip("\n"),
+             "| Method and setting | " + " | ".join(f"FLIP, {load} puffs" for load in loads)
+             + f" | Worst pixel, {loads[-1]} puffs | Bits per pixel, {loads[-1]} puffs | Time, {loads[1]} puffs [ms] |", "|---|" + "--:|" * (len(loads) + 3)]
+    for setting in settings:
+        cells = [text(median(setting, "flip_mask", load), ".4f") for load in loads]
+        cells += [text(median(setting, "error_max", loads[-1]), ".3f"), text(median(setting, "bits_per_pixel", loads[-1]), ",.0f"),
+                  text(median(setting, "method_ms_median", loads[1]), ".1f")]
+        lines.append(f"| `{setting}` | " + " | ".join(cells) + " |")
+    return "\n".join(lines + [END])
+
+
+def parts_of(document):
+    text = document.read_text(encoding="utf-8")
     start, end = text.index(BEGIN), text.index(END) + len(END)
     return text[:start], text[start:end], text[end:]
 
 
+def written():
+    """The documents with a part that is written from this folder, and what the part must be."""
+    return [(README, block()), (GUIDE, guide_block())]
+
+
 def write():
-    before, _, after = readme_parts()
-    README.write_text(before + block() + after, encoding="utf-8")
+    for document, wanted in written():
+        before, _, after = parts_of(document)
+        document.write_text(before + wanted + after, encoding="utf-8")
 
 
 def check():
-    found, wanted = readme_parts()[1].splitlines(), block().splitlines()
-    for number in range(max(len(found), len(wanted))):
-        got, expected = (lines[number] if number < len(lines) else "nothing" for lines in (found, wanted))
-        if got != expected:
-            sys.exit(f"README.md has '{got}', expected '{expected}' from reports/sample; run `make sample` or make_sample.py --write")
+    for document, text in written():
+        found, wanted = parts_of(document)[1].splitlines(), text.splitlines()
+        for number in range(max(len(found), len(wanted))):
+            got, expected = (lines[number] if number < len(lines) else "nothing" for lines in (found, wanted))
+            if got != expected:
+                sys.exit(f"{document.name} has '{got}', expected '{expected}' from reports/sample; run `make sample` or make_sample.py --write")
     for folder in sorted(HERE.glob("*/full")):
         readme = folder / "README.md"
         explained = readme.read_text(encoding="utf-8") if readme.exists() else ""
@@ -181,12 +254,16 @@ def main(arguments):
         if full and len(arguments) < 3:
             sys.exit(f"make_sample.py: --full needs a paper: {', '.join(PAPERS)}")
         program, *papers = arguments[1:] if full or charts else arguments
-        papers = papers or PAPERS
+        allowed = PAPERS if full else [*PAPERS, *GROUPS]
+        papers = papers or (PAPERS if charts else allowed)
         for paper in papers:
-            if paper not in PAPERS:
-                sys.exit(f"make_sample.py: no paper '{paper}'; papers: {', '.join(PAPERS)}")
+            if paper not in allowed:
+                sys.exit(f"make_sample.py: no paper '{paper}'; papers: {', '.join(allowed)}")
         for paper in papers:
-            (draw_full if charts else measure_full if full else measure)(program, paper)
+            if paper in GROUPS:
+                (draw_group if charts else measure_group)(program, paper)
+            else:
+                (draw_full if charts else measure_full if full else measure)(program, paper)
     write()
 
 

@@ -97,12 +97,14 @@ TEST(PresetsInView, OfEveryParticleSystem) {
                                               {"cloth", {"sphere", "fixed"}},
                                               {"springs", {"sphere", "fixed"}},
                                               {"wheel_dust_mixed", {"two_soils", "chase"}},
+                                              {"smoke", {"smoke", "fixed"}},
+                                              {"smoke_fine", {"smoke_fine", "fixed"}},
                                               {"snow", {"snowfall", "fixed"}},
                                               {"torch", {"cascade", "fixed"}},
                                               {"waterfall", {"cascade", "fixed"}}};
     constexpr double leastShare = 0.1;  // snow falls over a wider area than the view, so that none is missing
     const std::vector<std::string> names = files::listData("particles", ".toml");
-    EXPECT_GE(names.size(), 23u);
+    EXPECT_GE(names.size(), 25u);
     for (const std::string& name : names) {
         const auto found = others.find(name);
         expectInView("plugin_particles", "system", name, found == others.end() ? dusk : found->second, 4, leastShare);
