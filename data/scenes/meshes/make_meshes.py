@@ -265,6 +265,7 @@ def dart():
     faces = [(nose, back, left), (nose, right, back), (nose, keel, back)]
     with open(path("dart.obj"), "w") as file:
         file.write("# dart: metres, nose along +X, written by make_meshes.py\n")
+        file.write(f"# counts: v {3 * len(faces)}, f {len(faces)}\n")
         for face in faces:
             for corner in face:
                 file.write("v {:.4f} {:.4f} {:.4f}\n".format(*corner))

@@ -72,7 +72,7 @@ PartInfo describe() {
         .real("separation", 0.6, 0, 1e4, "m²/s²", "s: a = s·Σ (x − x_j)/d² over the nearer ones")
         .real("matching", 2, 0, 1e3, "1/s", "m: a = m·(mean velocity − v)")
         .real("cohesion", 1, 0, 1e4, "1/s²", "c: a = c·(mean position − x)")
-        .real("cruise_speed", 2, 0, 1e3, "m/s", "speed that a boid keeps by itself")
+        .real("cruise_speed", 2, 0, 1e3, "m/s", "speed that a boid keeps where no rule applies")
         .real("cruise_rate", 1, 0, 1e3, "1/s", "how fast it returns to that speed")
         .real("maximum_acceleration", 20, 0, 1e5, "m/s²", "limit on the sum of all rules");
     info.create = [](const ParameterValues& values) { return std::make_unique<Boids>(values); };
