@@ -39,7 +39,8 @@ struct Lattice {
     /// Position at rest, in the frame of the lattice.
     [[nodiscard]] glm::dvec3 restOf(std::uint64_t serial) const {
         const glm::dvec3 node(nodeOf(serial));
-        return place + node.x * column + node.y * row + node.z * layer + static_cast<double>(serial / size()) * piece;
+        const auto repeat = serial / size();
+        return place + node.x * column + node.y * row + node.z * layer + static_cast<double>(repeat) * piece;
     }
     /// From the frame of the lattice to the world at the end of the step.
     [[nodiscard]] glm::dmat4 toWorld(const scene::SceneState& state) const {
