@@ -24,6 +24,7 @@ std::vector<Part> randomSurfaces(int count, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
     std::vector<Part> parts;
+    parts.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) parts.push_back({4 * uniform(random) / count, uniform(random)});
     return parts;
 }
