@@ -37,7 +37,8 @@ int measureRunCommand(const std::vector<std::string>& argv) {
         const std::string line = std::string(phase) + " " + std::to_string(done) + " " + std::to_string(total) + "\n";
         [[maybe_unused]] const auto written = write(STDOUT_FILENO, line.data(), line.size());
     };
-    const bench::RunRecord record = bench::measureRun(spec, folder, {argv.begin() + 4, argv.end()}, progress);
+    const bench::RunRecord record =
+        bench::measureRun(spec, folder, {argv.begin() + 4, argv.end()}, progress, bench::referencesBeside(folder));
     bench::writeWhole(folder / "run.json", bench::toJson(record));
     return exitOk;
 }

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <memory>
 #include <stdexcept>
 #include <vector>
 
@@ -17,31 +16,30 @@
 namespace dustbench::bench {
 namespace {
 
-class Digest {
- public:
-    Digest() { require(EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr)); }
-
-    void add(std::string_view bytes) { require(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size())); }
-    [[nodiscard]] std::string text() {
-        std::array<unsigned char, 32> digest{};
-        require(EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr));
-        std::string text;
-        for (const unsigned char byte : digest) text += fmt::format("{:02x}", byte);
-        return text;
-    }
-
- private:
-    static void require(int succeeded) {
-        if (!succeeded) throw std::runtime_error("SHA-256 cannot be computed: OpenSSL failed");
-    }
-
-    std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
-};
+void require(int succeeded) {
+    if (!succeeded) throw std::runtime_error("SHA-256 cannot be computed: OpenSSL failed");
+}
 
 }  // namespace
 
+Sha256::Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
+    require(EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr));
+}
+
+void Sha256::add(std::string_view bytes) {
+    require(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()));
+}
+
+std::string Sha256::text() {
+    std::array<unsigned char, 32> digest{};
+    require(EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr));
+    std::string text;
+    for (const unsigned char byte : digest) text += fmt::format("{:02x}", byte);
+    return text;
+}
+
 std::string sha256(std::string_view bytes) {
-    Digest digest;
+    Sha256 digest;
     digest.add(bytes);
     return digest.text();
 }
@@ -51,7 +49,7 @@ std::string sha256OfFile(const std::filesystem::path& file, std::uintmax_t maxim
     errno = 0;
     std::ifstream stream(file, std::ios::binary);
     std::vector<char> block(std::size_t{1} << 20);
-    Digest digest;
+    Sha256 digest;
     std::uintmax_t bytes = 0;
     do {
         stream.read(block.data(), static_cast<std::streamsize>(block.size()));

@@ -3,12 +3,27 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
 #include "methods/kit/files/limits.h"
 
+struct evp_md_ctx_st;  // OpenSSL's
+
 namespace dustbench::bench {
+
+/// A digest of bytes that arrive in parts.
+class Sha256 {
+ public:
+    Sha256();
+    void add(std::string_view bytes);
+    /// 64 hexadecimal digits. Nothing can be added afterwards.
+    [[nodiscard]] std::string text();
+
+ private:
+    std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st*)> context_;
+};
 
 /// 64 hexadecimal digits.
 [[nodiscard]] std::string sha256(std::string_view bytes);

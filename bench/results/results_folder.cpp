@@ -26,6 +26,7 @@ namespace {
 constexpr std::string_view hiddenStart = ".unfinished-";
 constexpr std::string_view oldStart = ".replaced-";
 constexpr std::string_view asideStart = ".damaged-";
+constexpr std::string_view references = ".references";
 
 /// Removes a folder. Retries, because a run whose program was just killed may write one last file into it.
 void removeLeft(const fs::path& folder) {
@@ -79,7 +80,7 @@ void ResultsFolder::cleanUp() {
     std::vector<fs::path> left;
     for (const auto& entry : fs::directory_iterator(folder_ / "runs"))
         if (const std::string name = entry.path().filename();
-            name.starts_with(hiddenStart) || name.starts_with(oldStart))
+            name.starts_with(hiddenStart) || name.starts_with(oldStart) || name == references)
             left.push_back(entry.path());
     for (const fs::path& path : left) {
         const std::string name = path.filename();
@@ -116,6 +117,7 @@ ResultsFolder::~ResultsFolder() {
         return std::distance(fs::directory_iterator(folder, error), fs::directory_iterator());
     };
     const fs::path runs = folder_ / "runs";
+    fs::remove_all(runs / references, error);
     if (isNew_ && entriesOf(folder_) == 1 && entriesOf(runs) == 0 && fs::remove(runs, error))
         fs::remove(folder_, error);
     close(lock_);
@@ -163,6 +165,10 @@ void ResultsFolder::discard(const std::string& runId) {
 void ResultsFolder::writeSummary() {
     addMethodTimes(runs_);
     writeWhole(folder_ / "summary.csv", summaryCsv(runs_));
+}
+
+fs::path referencesBeside(const fs::path& runFolder) {
+    return runFolder.parent_path() / references;
 }
 
 std::string summaryCsv(const StoredRuns& runs) {

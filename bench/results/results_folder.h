@@ -54,6 +54,10 @@ class ResultsFolder {
     std::vector<std::string> setAside_;
 };
 
+/// The hidden folder of the reference images that the runs of a ResultsFolder share, from the folder that `beginRun`
+/// returned. It is removed with the ResultsFolder.
+[[nodiscard]] std::filesystem::path referencesBeside(const std::filesystem::path& runFolder);
+
 /// summary.csv as text: the runs one row each, ordered by id; p.… columns are the union of all parameters.
 [[nodiscard]] std::string summaryCsv(const StoredRuns& runs);
 

@@ -13,12 +13,21 @@ TEST(ResultsFolder, GoesAgainIfNothingWasWritten) {
     const fs::path out = folder.path() / "results" / "out";
     {
         ResultsFolder results(out);
-        EXPECT_TRUE(fs::exists(results.beginRun("haze-plain-r1-000000000000")));
+        const fs::path run = results.beginRun("haze-plain-r1-000000000000");
+        EXPECT_TRUE(fs::exists(run));
+        EXPECT_TRUE(fs::create_directory(referencesBeside(run)));
         results.discard("haze-plain-r1-000000000000");
         EXPECT_TRUE(fs::exists(out / "runs"));
     }
     EXPECT_FALSE(fs::exists(out));
     EXPECT_TRUE(fs::exists(folder.path()));
+}
+
+TEST(ResultsFolder, HasNoReferencesOfAnInterruptedProgram) {
+    const TestFolder folder;
+    folder.write("runs/.references/image", "of another build");
+    const ResultsFolder results(folder.path());
+    EXPECT_FALSE(fs::exists(folder.path() / "runs" / ".references"));
 }
 
 TEST(ResultsFolder, StaysIfItWasThereOrHoldsAnything) {

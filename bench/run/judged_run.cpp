@@ -74,7 +74,7 @@ std::string whyNotJudged(const JudgingPlan& plan, const Method& method) {
 }
 
 Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& device, const std::string& stateHash,
-                   const RunProgress& progress) {
+                   const RunProgress& progress, const fs::path& references) {
     const MethodInfo& info = findMethod(spec.method);
     const ResolvedParameters parameters = resolveParameters(info, spec.parameters);
     World world(spec.scene, spec.drive, parameters.world, spec.seed);
@@ -91,6 +91,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
     const std::vector<std::int64_t> stretch = JudgingPlan::stretchOf(spec.frames);
     if (spec.judging->keepsPictures) fs::create_directories(folder / "images");
 
+    ReferenceStore store(references);
     Judgement judgement;
     PoppingJudge poppingJudge;
     const auto judge = [&](std::int64_t frame) {
@@ -101,7 +102,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
         ExactMoment exact =
             finer ? finer->moment(isMoment)
                   : exactMoment(world.scene(), view, drawn, world.unlitDust(), isMoment,
-                                isMoment && continuum ? std::optional(continuum->unlitDust()) : std::nullopt);
+                                isMoment && continuum ? std::optional(continuum->unlitDust()) : std::nullopt, store);
         // Dust from a file has no emitters, so it is its own continuum.
         if (isMoment && !finer && !continuum) {
             exact.continuum = exact.layer;

@@ -17,8 +17,10 @@ namespace dustbench::bench {
 
 /// Computes the metrics of the frames selected by `spec.judging`. Writes metrics.csv to `folder` and, for each moment,
 /// the method's picture and the reference image (.png, .exr) and the FLIP map (.png) to images/. `stateHash` is the
-/// state after the run's last frame; throws std::runtime_error if the replay ends in another state.
+/// state after the run's last frame; throws std::runtime_error if the replay ends in another state. `references`: the
+/// folder of reference images that the runs of a suite share; empty: none.
 [[nodiscard]] Judgement judgeRun(const RunSpec& spec, const std::filesystem::path& folder, gpu::Device& device,
-                                 const std::string& stateHash, const RunProgress& progress);
+                                 const std::string& stateHash, const RunProgress& progress,
+                                 const std::filesystem::path& references = {});
 
 }  // namespace dustbench::bench

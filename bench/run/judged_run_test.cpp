@@ -8,6 +8,7 @@
 #include "bench/suite/suite.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/csv.h"
+#include "methods/kit/files/whole_text.h"
 #include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
@@ -29,8 +30,8 @@ class JudgedRun : public testing::Test {
         spec.parameters = canonicalParameters(findMethod(method), parameters);
         spec.judging.emplace().finer = finer;
         std::map<std::string, double> numbers;
-        const RunRecord record =
-            measureRun(spec, folder_.path(), {}, [](std::string_view, std::int64_t, std::int64_t) {});
+        const RunRecord record = measureRun(
+            spec, folder_.path(), {}, [](std::string_view, std::int64_t, std::int64_t) {}, references_);
         for (const auto& [name, value] : record.summary) {
             if (const auto* number = std::get_if<double>(&value)) numbers[name] = *number;
             if (const auto* number = std::get_if<std::int64_t>(&value)) numbers[name] = static_cast<double>(*number);
@@ -42,6 +43,7 @@ class JudgedRun : public testing::Test {
     }
 
     TestFolder folder_;
+    std::filesystem::path references_;  ///< shared by runs; empty: none
 };
 
 TEST_F(JudgedRun, SoftBillboardsAreTheExactPictureAndHardOnesAreCutOff) {
@@ -54,6 +56,24 @@ TEST_F(JudgedRun, SoftBillboardsAreTheExactPictureAndHardOnesAreCutOff) {
     EXPECT_GT(hard.at("cutoff"), 5 * soft.at("cutoff"));
     EXPECT_EQ(soft.at("volume_error"), 0);
     EXPECT_GT(soft.at("quads_per_pixel"), 0);
+}
+
+TEST_F(JudgedRun, IsTheSameWithReferencesOfAnotherRun) {
+    if (!hasMethod("billboard") || !hasMethod("null_method")) GTEST_SKIP() << "no billboards here";
+    const auto metrics = [&](const char* method) {
+        (void)judged(method, {{"particles", "300"}}, 7);
+        return files::wholeText(folder_.path() / "metrics.csv", "metrics");
+    };
+    const auto images = [&] {
+        return std::distance(std::filesystem::directory_iterator(references_), std::filesystem::directory_iterator());
+    };
+    const std::string alone = metrics("billboard");
+    references_ = folder_.path() / "references";
+    (void)metrics("null_method");
+    const auto ofFirst = images();
+    EXPECT_GT(ofFirst, 0);
+    EXPECT_EQ(metrics("billboard"), alone);
+    EXPECT_EQ(images(), ofFirst) << "the second run needs no image that the first has not stored";
 }
 
 TEST_F(JudgedRun, LitDustIsJudgedByItsLightAndItsGapsStayAsTheyAre) {

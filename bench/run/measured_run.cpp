@@ -147,7 +147,8 @@ void warnOfClock(const ClockWatch& clock, std::int64_t throttledBefore, std::vec
         if (!warning.empty()) warnings.push_back(std::move(warning));
 }
 
-void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& progress, RunRecord& record) {
+void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& progress, const fs::path& references,
+             RunRecord& record) {
     const files::InputLog read;
     const MethodInfo& info = findMethod(spec.method);
     const ResolvedParameters parameters = resolveParameters(info, spec.parameters);
@@ -231,7 +232,7 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     }
     record.summary.emplace_back("metric_reference", spec.judging->referenceText());
     timed.reset();
-    const Judgement judgement = judgeRun(spec, folder, device, record.stateHash, progress);
+    const Judgement judgement = judgeRun(spec, folder, device, record.stateHash, progress, references);
     for (auto& [column, value] : summaryOf(judgement)) record.summary.emplace_back(std::move(column), value);
     if (std::string warning = volumeWarning(judgement); !warning.empty())
         record.provenance.warnings.push_back(std::move(warning));
@@ -240,12 +241,12 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
 }  // namespace
 
 RunRecord measureRun(const RunSpec& spec, const fs::path& folder, std::vector<std::string> argv,
-                     const RunProgress& progress) {
+                     const RunProgress& progress, const fs::path& references) {
     RunRecord record;
     record.spec = spec;
     record.drive = spec.drive;
     record.provenance = startProvenance(std::move(argv), spec.timed);
-    withThreads(spec.threads, [&] { measure(spec, folder, progress, record); });
+    withThreads(spec.threads, [&] { measure(spec, folder, progress, references, record); });
     if (spec.timed && record.status == RunStatus::done)
         record.summary.emplace_back("run_s", secondsSinceProcessStart());
     record.outputs = outputsIn(folder);

@@ -23,7 +23,8 @@ ExactHalf::ExactHalf(gpu::Device& device, int width, int height)
 void ExactHalf::draw(const DrawnMoment& drawn, const scene::Scene& scene, const scene::View& view, const Puffs& dust,
                      std::string whyNotJudged) {
     const std::int64_t start = steadyNow();
-    const ExactMoment exact = exactMoment(scene, view, drawn, dust, false, std::nullopt);
+    ReferenceStore none;
+    const ExactMoment exact = exactMoment(scene, view, drawn, dust, false, std::nullopt, none);
     whyNotJudged_ = std::move(whyNotJudged);
     judged_ = {
         {}, opaque(pictures::over(drawn.layer, drawn.scene)), opaque(pictures::over(exact.layer, drawn.scene)), {}};

@@ -58,6 +58,7 @@ void SplitView::draw(const HalfTextures& a, const HalfTextures& b, const SplitSe
     program_.set("source", static_cast<int>(sourceOf(settings)));
     program_.set("exposure", std::exp2(settings.stops));
     program_.set("encoded", settings.encoded ? 1 : 0);
+    program_.set("interpolated", a.display.height() < height ? 1 : 0);
     program_.set("nearMetres", static_cast<float>(nearMetres));
     gpu::draw(program_, noVertices_, {}, gpu::Primitives::triangles, 3);
 }

@@ -16,6 +16,7 @@ uniform int source;        // 0 display, 1 light, 2 alpha, 3 depth, 4 faults
 uniform float exposure;    // factor on light
 uniform int encoded;       // 1: light is encoded for display
 uniform float nearMetres;  // of the camera
+uniform int interpolated;  // 1: bilinear between pixel centres; 0: every pixel is a block of one colour
 
 layout(location = 0) out vec4 colour;
 
@@ -48,13 +49,26 @@ vec3 faultColour(vec4 layer, vec4 scene, vec3 display) {
     return vec3(0.4 * dot(display, vec3(0.2126, 0.7152, 0.0722)));
 }
 
-vec3 shown(sampler2D displayed, sampler2D scene, sampler2D layer, sampler2D depth, ivec2 pixel) {
+vec3 texel(sampler2D displayed, sampler2D scene, sampler2D layer, sampler2D depth, ivec2 at) {
+    ivec2 pixel = clamp(at, ivec2(0), textureSize(displayed, 0) - 1);
     if (source == 1) return lightOf(texelFetch(scene, pixel, 0), texelFetch(layer, pixel, 0));
     if (source == 2) return texelFetch(layer, pixel, 0).aaa;
     if (source == 3) return vec3(depthGrey(texelFetch(depth, pixel, 0).r));
     vec3 display = texelFetch(displayed, pixel, 0).rgb;
     if (source == 4) return faultColour(texelFetch(layer, pixel, 0), texelFetch(scene, pixel, 0), display);
     return display;
+}
+
+/// `place` in pixels from the lower left corner.
+vec3 shown(sampler2D displayed, sampler2D scene, sampler2D layer, sampler2D depth, vec2 place) {
+    if (interpolated == 0) return texel(displayed, scene, layer, depth, ivec2(floor(place)));
+    ivec2 lower = ivec2(floor(place - 0.5));
+    vec2 share = fract(place - 0.5);
+    vec3 below = mix(texel(displayed, scene, layer, depth, lower),
+                     texel(displayed, scene, layer, depth, lower + ivec2(1, 0)), share.x);
+    vec3 above = mix(texel(displayed, scene, layer, depth, lower + ivec2(0, 1)),
+                     texel(displayed, scene, layer, depth, lower + ivec2(1, 1)), share.x);
+    return mix(below, above, share.y);
 }
 
 void main() {
@@ -65,14 +79,10 @@ void main() {
         isA = place.x < 0.5;
         place.x = fract(2.0 * place.x);
     }
-    ivec2 texels = textureSize(displayA, 0);
-    ivec2 pixel = clamp(ivec2(floor((region.xy + region.zw * place) * vec2(texels))), ivec2(0), texels - 1);
-    vec3 a = shown(displayA, sceneA, layerA, depthA, pixel);
-    vec3 b = shown(displayB, sceneB, layerB, depthB, pixel);
-    if (gain > 0.0) {
-        colour = vec4(clamp(0.5 + 0.5 * gain * (b - a), 0.0, 1.0), 1.0);
-        return;
-    }
+    vec2 at = (region.xy + region.zw * place) * vec2(textureSize(displayA, 0));
+    bool needsA = isA || gain > 0.0, needsB = !isA || gain > 0.0;
+    vec3 a = needsA ? shown(displayA, sceneA, layerA, depthA, at) : vec3(0.0);
+    vec3 b = needsB ? shown(displayB, sceneB, layerB, depthB, at) : vec3(0.0);
     bool onLine = beside == 0 && divider > 0.0 && divider < 1.0 && abs(beyond) <= 1.0;
-    colour = vec4(onLine ? vec3(1.0) : isA ? a : b, 1.0);
+    colour = vec4(gain > 0.0 ? clamp(0.5 + 0.5 * gain * (b - a), 0.0, 1.0) : onLine ? vec3(1.0) : isA ? a : b, 1.0);
 }

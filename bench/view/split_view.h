@@ -1,7 +1,7 @@
 // Combines the pictures of two halves: with a divider, side by side, one alone, or as a signed difference.
 //
-// Units: shares of width and height from the lower left corner. A picture is enlarged by repeating its pixels, so that
-// single pixels stay visible.
+// Units: shares of width and height from the lower left corner. Zooming in repeats pixels, so that single pixels stay
+// visible. Pictures with fewer rows than the target are interpolated.
 #pragma once
 
 #include "methods/contract/choices.h"

@@ -80,6 +80,31 @@ TEST_F(Split, ShowsAUpToTheDividerAndBBeyond) {
     EXPECT_EQ(glm::vec3(drawn(a_, b_, {Shown::b, 1}).at(3, 3)), glm::vec3(b.at(3, 3)));
 }
 
+TEST_F(Split, InterpolatesPicturesSmallerThanTheTarget) {
+    constexpr int smallWidth = splitWidth / 4, smallHeight = splitHeight / 4;
+    // A ramp to the right and up: bilinear interpolation keeps it, apart from half a pixel at the edges.
+    std::vector<std::uint8_t> values;
+    for (int y = 0; y < smallHeight; ++y)
+        for (int x = 0; x < smallWidth; ++x)
+            for (const int value : {20 * x, 30 * y, 5 * (x + y), 255})
+                values.push_back(static_cast<std::uint8_t>(value));
+    gpu::Texture ramp = gpu::Texture::make2D(device_, "ramp", gpu::Format::rgba8, smallWidth, smallHeight);
+    ramp.write(std::span<const std::uint8_t>(values));
+    const auto placeOf = [](int pixel, int of, int texels) {
+        const float place = (static_cast<float>(pixel) + 0.5f) / static_cast<float>(of) * static_cast<float>(texels);
+        return std::clamp(place - 0.5f, 0.0f, static_cast<float>(texels - 1));
+    };
+    const pictures::Image image = drawn(ramp, ramp, {Shown::a});
+    for (int y = 0; y < splitHeight; ++y)
+        for (int x = 0; x < splitWidth; ++x) {
+            const float right = placeOf(x, splitWidth, smallWidth);
+            const float up = placeOf(splitHeight - 1 - y, splitHeight, smallHeight);
+            const glm::vec4 pixel = image.at(x, y);
+            ASSERT_NEAR(pixel.r, 20 * right / 255, step) << x << " " << y;
+            ASSERT_NEAR(pixel.g, 30 * up / 255, step) << x << " " << y;
+        }
+}
+
 TEST_F(Split, DifferenceIsGreyWhereTheyAgreeAndSigned) {
     const pictures::Image same = drawn(a_, a_, {Shown::difference, 0.5f, 10});
     for (const glm::vec4& pixel : same.pixels) ASSERT_NEAR(pixel.r, 0.5f, step);

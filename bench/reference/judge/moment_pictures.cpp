@@ -10,12 +10,10 @@
 namespace dustbench::bench {
 
 ExactMoment exactMoment(const scene::Scene& scene, const scene::View& view, const DrawnMoment& drawn, const Puffs& dust,
-                        bool withDetail, const std::optional<Puffs>& continuum) {
+                        bool withDetail, const std::optional<Puffs>& continuum, ReferenceStore& store) {
     const OpaqueDistances distances = distancesFromDepth(view, drawn.sceneDepth);
-    const auto render = [&](const ReferenceOptions& how) {
-        return scene.lights.onDust ? renderLitParticles(dust, view, distances, SunLight::of(scene), how).image
-                                   : renderParticles(dust, view, distances, how).image;
-    };
+    const auto light = scene.lights.onDust ? std::optional(SunLight::of(scene)) : std::nullopt;
+    const auto render = [&](const ReferenceOptions& how) { return store.render(dust, view, distances, light, how); };
     ExactMoment exact;
     exact.ofOneColour = !scene.lights.onDust && dust.uniformColour;
     ReferenceOptions options;
@@ -29,7 +27,7 @@ ExactMoment exactMoment(const scene::Scene& scene, const scene::View& view, cons
         options.opticalDepthShare = 1.0 / continuumParticles;
         Puffs grey = *continuum;
         grey.uniformColour = true;
-        exact.continuum = renderParticles(grey, view, distances, options).image;
+        exact.continuum = store.render(grey, view, distances, std::nullopt, options);
     }
     return exact;
 }

@@ -11,6 +11,7 @@
 #include "bench/measure/image/popping_sizes.h"
 #include "bench/measure/image/screen_primitive.h"
 #include "bench/reference/particle_image.h"
+#include "bench/reference/reference_store.h"
 #include "methods/contract/scene.h"
 #include "methods/contract/view.h"
 #include "methods/contract/volume.h"
@@ -38,9 +39,11 @@ struct ExactMoment {
 inline constexpr std::int64_t continuumParticles = 64;
 
 /// `dust`: with its colours without light; `scene.lights.onDust` determines whether it is lit. `withDetail`: also
-/// renders the layers without the scene. `continuum` may be empty; it is drawn in one colour, without light.
+/// renders the layers without the scene. `continuum` may be empty; it is drawn in one colour, without light. Images
+/// that `store` has are not rendered.
 [[nodiscard]] ExactMoment exactMoment(const scene::Scene& scene, const scene::View& view, const DrawnMoment& drawn,
-                                      const Puffs& dust, bool withDetail, const std::optional<Puffs>& continuum);
+                                      const Puffs& dust, bool withDetail, const std::optional<Puffs>& continuum,
+                                      ReferenceStore& store);
 
 /// The same with sizes in metres (a voxel's edge or a puff's radius) and optical depths.
 [[nodiscard]] std::vector<SizedPrimitive> sizedPrimitivesOnScreen(const CollectedVolume& volume,

@@ -23,8 +23,10 @@ class FakeMethod {
         volume.puffs(reportedCloud);
         reference.puffs(exactCloud);
         Judgement judgement;
+        ReferenceStore none;
         for (const std::int64_t frame : {0, 1}) {
-            judgement.frames.push_back(judgeMoment(drawn, exactMoment({}, view_, drawn, exactCloud, true, exactCloud),
+            judgement.frames.push_back(judgeMoment(drawn,
+                                                   exactMoment({}, view_, drawn, exactCloud, true, exactCloud, none),
                                                    {1, volume, reference, view_, 1})
                                            .metrics);
             judgement.frames.back().frame = frame;
