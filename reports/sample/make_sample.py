@@ -5,7 +5,7 @@
     make_sample.py --full PROGRAM PAPER …       measures the full runs of the papers (up to two hours each), writes
                                                 PAPER/full; `make full PAPER=…` calls it
     make_sample.py --charts PROGRAM [PAPER …]   draws the charts of the full runs from their tables, PAPER/SUITE.svg
-    make_sample.py --write                      updates README.md from this folder
+    make_sample.py --write                      updates README.md, and the README.md of each folder, from the tables
     make_sample.py PROGRAM GROUP                measures the quick runs of a group of papers that share runs, and draws their charts; keeps
                                                 only tables and charts
     make_sample.py --check                      exits with 1 if README.md and this folder disagree, or if PAPER/full/README.md
@@ -21,12 +21,15 @@ import subprocess
 import sys
 import time
 
+import sample_readme
+
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 README = ROOT / "README.md"
 OUT = ROOT / "reports" / "out" / "sample"
 # Papers that share runs: one folder for all, with further suites of our own.
 GROUPS = {"transparency": {
+    "title": "Eight papers on transparency",
     "papers": ["enderton2010", "aizenshtein2022", "munstermann2018", "mcguire2013", "salvi2011", "salvi2014", "yang2010", "cantlay2007"],
     "suites": ["transparency"]}}
 GROUPED = {paper for group in GROUPS.values() for paper in group["papers"]}
@@ -75,7 +78,7 @@ def measure(program, paper):
     # Both durations include the experiments, which run again.
     durations = {"quick_seconds": seconds_of(quick), "controls_seconds": seconds_of(quick + ["--controls"])}
     subprocess.run([program, "report", out, "--pictures", "1"], check=True)
-    keep(out, kept, ("index.html", *TABLES), durations)
+    keep(out, kept, TABLES, durations)
     if paper == PAPER:
         for chart in (SUITE, SUITE + "-stages"):
             subprocess.run([program, "report", out, "--chart", chart, "--format", "png"], check=True)
@@ -222,10 +225,19 @@ def written():
     return [(README, block()), (GUIDE, guide_block())]
 
 
+def readmes():
+    """The files that are wholly written from this folder, and what they must be."""
+    papers = [(HERE / paper, sample_readme.title_of(paper), "make sample") for paper in PAPERS]
+    groups = [(HERE / name, group["title"], f"make_sample.py PROGRAM {name}") for name, group in GROUPS.items()]
+    return [(folder / "README.md", sample_readme.readme(folder, title, command)) for folder, title, command in papers + groups]
+
+
 def write():
     for document, wanted in written():
         before, _, after = parts_of(document)
         document.write_text(before + wanted + after, encoding="utf-8")
+    for file, text in readmes():
+        file.write_text(text, encoding="utf-8")
 
 
 def check():
@@ -235,6 +247,9 @@ def check():
             got, expected = (lines[number] if number < len(lines) else "nothing" for lines in (found, wanted))
             if got != expected:
                 sys.exit(f"{document.name} has '{got}', expected '{expected}' from reports/sample; run `make sample` or make_sample.py --write")
+    for file, text in readmes():
+        if not file.exists() or file.read_text(encoding="utf-8") != text:
+            sys.exit(f"{file.relative_to(ROOT)} is not what its tables give; run make_sample.py --write")
     for folder in sorted(HERE.glob("*/full")):
         readme = folder / "README.md"
         explained = readme.read_text(encoding="utf-8") if readme.exists() else ""
