@@ -20,7 +20,7 @@ constexpr int groupPixels = 8;                        ///< edge of a work group 
 void LinkedList::prepare(const scene::Scene&, const RunSetup&, gpu::Device& device) {
     device_ = &device;
     quads_.emplace(device, reach_);
-    counter_ = gpu::Buffer(device, "fragment counter", 2 * sizeof(std::uint32_t));
+    counter_ = gpu::Buffer(device, "fragment counter", 3 * sizeof(std::uint32_t));
     std::map<std::string, std::string> definitions;
     if (puff_ == Puff::surface) definitions["SURFACE"] = "";
     append_ = draw::puffPass("linked lists: append", {linked_list_shaders::append_fragment_frag}, definitions);
@@ -63,7 +63,7 @@ void LinkedList::append(const Frame& frame, gpu::Layer& layer) {
     counter_.bindStorage(4);
     layer.bindColourOnly();
     quads_->store(program, layer.sceneDepth());
-    std::array<std::uint32_t, 2> count{};
+    std::array<std::uint32_t, 3> count{};
     counter_.read(std::span<std::uint32_t>(count));
     found_ = count[0] + (std::uint64_t{count[1]} << 32);
 }
@@ -92,12 +92,25 @@ void LinkedList::sortAndBlend(const Frame& frame, gpu::Layer& layer) {
         quads_->bindValues(0);
     else
         made->set("colourOfAll", frame.dust.colourOfAll);
+    made->set("probeIterations", 4);
     heads_.bindStorage(1);
     links_.bindStorage(2);
     fragments_.bindStorage(3);
+    counter_.bindStorage(4);
     layer.colour().bindImage(0, false, true);
     const auto groups = [](int pixels) { return (pixels + groupPixels - 1) / groupPixels; };
     made->dispatch(groups(width_), groups(height_), 1);
+    if (device_->isSoftware()) requireSorted();  // hardware has no such limit, and reading would wait for it
+}
+
+void LinkedList::requireSorted() {
+    std::array<std::uint32_t, 3> count{};
+    counter_.read(std::span<std::uint32_t>(count));
+    if (count[2] > 0)
+        throw InputError(
+            "linked_list: got lists in " + std::to_string(count[2]) +
+            " pixels that are too long for this driver, which ends the loops of a shader after a number of "
+            "iterations; expected at most some thousand fragments in a pixel");
 }
 
 void LinkedList::report(const Frame&, Facts& facts) const {

@@ -44,6 +44,7 @@ class LinkedList final : public Method {
     void append(const Frame& frame, gpu::Layer& layer);
     void requireRoom() const;
     void sortAndBlend(const Frame& frame, gpu::Layer& layer);
+    void requireSorted();
 
     Puff puff_;
     double reach_;

@@ -1,5 +1,6 @@
 #include "methods/linked_list/linked_list.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -183,6 +184,38 @@ TEST(LinkedList, NamesBothNumbersIfThePoolIsTooSmall) {
               "linked_list: got 20736 fragments at 96x72 pixels, expected at most 13824 (fragments_per_pixel=2; 3 is "
               "sufficient)");
     EXPECT_EQ(messageOf(cloud, 3), "");
+}
+
+/// Puffs on the view's axis, in random order of depth.
+void pile(Cloud& cloud) {
+    const std::size_t count = cloud.dust.size();
+    const glm::vec3 ahead = glm::normalize(glm::vec3(cloud.view.camera.target) - glm::vec3(cloud.view.camera.eye));
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::shuffle(order, std::mt19937(4));
+    for (std::size_t i = 0; i < count; ++i) {
+        const float depth = static_cast<float>(i) / static_cast<float>(count);
+        cloud.place(order[i], cloud.at((5 + 5 * depth) * ahead), 0.1f, 0.004f, {depth, 1 - depth, 0});
+    }
+}
+
+/// A shader of llvmpipe ends its loops after 65,535 iterations: without a check, long lists would be sorted in part.
+TEST(LinkedList, SortsLongListsOrSaysThatItCannot) {
+    Cloud sorted(2'000), longer(12'000);
+    pile(sorted);
+    pile(longer);
+    const pictures::Image image = sorted.drawn(Puff::surface);
+    const int x = image.width / 2, y = image.height / 2;
+    const glm::dvec3 ray = sorted.view.rayDirection(x + 0.5, y + 0.5);
+    const glm::dvec4 expected = sorted.plainPixel(Puff::surface, ray, sorted.sceneAt(x, y, ray));
+    for (int c = 0; c < 4; ++c) EXPECT_NEAR(image.at(x, y)[c], expected[c], 1e-4);
+    EXPECT_GT(expected.g, 2 * expected.r) << "the order must matter";
+
+    const std::string message = messageOf(longer, 256);
+    if (Cloud::device().isSoftware())
+        EXPECT_THAT(message, testing::HasSubstr("too long for this driver"));
+    else
+        EXPECT_EQ(message, "");
 }
 
 TEST(LinkedList, DrawsTheSameAgainAndFollowsACloudThatComesAndGoes) {

@@ -24,6 +24,11 @@ layout(std430, binding = 2) buffer Links {
 layout(std430, binding = 3) readonly buffer Fragments {
     vec2 fragments[];  // depth; alpha
 };
+layout(std430, binding = 4) buffer Counter {
+    uint found, foundHigh;
+    uint unfinished;  // pixels
+};
+uniform int probeIterations;  // more than one
 
 const int lengths = 32;
 uint sorted[lengths];
@@ -81,6 +86,13 @@ uint sortedList(uint fragment) {
     return all;
 }
 
+/// Some drivers (Mesa's llvmpipe) end all loops of an invocation after a number of iterations, also those that follow.
+bool isCutShort() {
+    int iterations = 0;
+    while (iterations < probeIterations) ++iterations;
+    return iterations < probeIterations;
+}
+
 void main() {
     ivec2 size = imageSize(picture), pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, size))) return;
@@ -91,5 +103,6 @@ void main() {
         blended += transmittance * alpha * vec4(colourOf(links[fragment].y), 1);
         transmittance *= 1.0 - alpha;
     }
+    if (isCutShort()) atomicAdd(unfinished, 1u);
     imageStore(picture, pixel, blended);
 }
