@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/claims/claim_verdict.h"
@@ -150,7 +151,35 @@ std::string mapAlong(const std::vector<ClaimCell>& cells, const std::string& col
     return fmt::format("by {}: {}", nameOf(column), fmt::join(texts, "; "));
 }
 
+/// The values of the column at which the claim is true in all cells, and those at which it is true in some.
+std::array<std::vector<double>, 2> trueValues(const std::map<double, std::vector<ClaimVerdict>>& verdicts) {
+    std::array<std::vector<double>, 2> values;
+    for (const auto& [value, list] : verdicts) {
+        const auto confirmed = std::ranges::count(list, ClaimVerdict::confirmed);
+        if (confirmed > 0) values[std::cmp_equal(confirmed, list.size()) ? 0 : 1].push_back(value);
+    }
+    return values;
+}
+
 }  // namespace
+
+std::string intervalAlong(const std::vector<ClaimCell>& cells, const std::string& column) {
+    std::map<double, std::vector<ClaimVerdict>> verdicts;
+    std::vector<double> axis;
+    for (const ClaimCell& cell : cells) {
+        const auto place = std::ranges::find(cell.cell, column, &Selection::value_type::first);
+        const std::optional<double> value = place == cell.cell.end() ? std::nullopt : numberOf(place->second);
+        if (!value) return "";
+        verdicts[*value].push_back(cell.verdict);
+    }
+    for (const auto& [value, list] : verdicts) axis.push_back(value);
+    const std::string unit = column == voxelEdgeColumn ? " m" : "";
+    const auto [all, some] = trueValues(verdicts);
+    std::string text = fmt::format("true for {} {}{}", nameOf(column), rangesText(all, axis), unit);
+    if (all.empty()) text = fmt::format("true for no {} in every configuration", nameOf(column));
+    if (!some.empty()) text += fmt::format(", in some configurations for {}{}", rangesText(some, axis), unit);
+    return text;
+}
 
 std::string conditionOf(const std::vector<ClaimCell>& cells, const std::string& along) {
     if (!along.empty())

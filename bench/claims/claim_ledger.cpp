@@ -54,7 +54,25 @@ int repetitionIn(const files::CsvTable& summary, std::size_t row) {
 std::string verdictText(const JudgedClaim& judged) {
     const ClaimVerdict verdict = judged.result.verdict;
     const bool isJudged = verdict != ClaimVerdict::untestable && verdict != ClaimVerdict::notTested;
-    return std::string(verdictName(verdict)) + (judged.claim.device && isJudged ? " on this device" : "");
+    std::string text = std::string(verdictName(verdict)) + (judged.claim.device && isJudged ? " on this device" : "");
+    const std::string& along = judged.claim.rule.along;
+    if (verdict != ClaimVerdict::depends || along.empty()) return text;
+    const std::string interval = intervalAlong(judged.result.cells, along);
+    return interval.empty() ? text : text + ": " + interval;
+}
+
+void tellByMachine(JudgedClaim& judged, const std::vector<ClaimVerdict>& ofMachines) {
+    if (!judged.claim.device || ofMachines.size() < 2) return;
+    std::vector<std::string> texts;
+    std::set<ClaimVerdict> verdicts;
+    for (std::size_t i = 0; i < ofMachines.size(); ++i) {
+        texts.push_back(fmt::format("{} on machine {}", verdictName(ofMachines[i]), i + 1));
+        if (ofMachines[i] != ClaimVerdict::notTested) verdicts.insert(ofMachines[i]);
+    }
+    if (verdicts.empty()) return;
+    judged.result.condition = fmt::format("{}", fmt::join(texts, ", "));
+    judged.result.verdict = verdicts.size() == 1 ? *verdicts.begin() : ClaimVerdict::depends;
+    judged.claim.device = verdicts.size() == 1;
 }
 
 std::set<std::string> runIdsOf(const std::string& suiteId, const files::CsvTable& summary) {

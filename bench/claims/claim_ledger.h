@@ -17,8 +17,12 @@ struct JudgedClaim {
     ClaimResult result;
 };
 
-/// `confirmed`, or `confirmed on this device` if the claim is about the device.
+/// `confirmed`, or `confirmed on this device` if the claim is about the device. `depends: true for voxel_edge 4 m` if
+/// it is tested along a column.
 [[nodiscard]] std::string verdictText(const JudgedClaim& judged);
+/// Replaces the verdict of a claim about the device, if its runs are from several machines, by the verdicts on each:
+/// `depends` if they differ. The condition names them.
+void tellByMachine(JudgedClaim& judged, const std::vector<ClaimVerdict>& ofMachines);
 
 /// Ids of the suite's full and quick runs, for every repetition number in the table.
 [[nodiscard]] std::set<std::string> runIdsOf(const std::string& suite, const files::CsvTable& summary);

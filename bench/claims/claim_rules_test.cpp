@@ -427,7 +427,13 @@ TEST(ClaimRules, AConditionCanBeToldAlongAnAxis) {
     EXPECT_EQ(result.condition,
               "by voxel_edge: true for 2 to 8, false for 0.5 to 1 (speed=10, speed=5); true for 1, 8, false for 0.5, 2 "
               "to 4 (speed=40)");
+    EXPECT_EQ(intervalAlong(result.cells, "p.voxel_edge"),
+              "true for voxel_edge 8 m, in some configurations for 1 to 4 m");
+    EXPECT_EQ(intervalAlong(result.cells, "p.particles"), "");
     EXPECT_EQ(judgedOverEdges([](int, int) { return 0.5; }).condition, "");
+    const ClaimResult bySpeed = judgedOverEdges([](int, int speed) { return speed < 40 ? 0.5 : 2; });
+    EXPECT_EQ(intervalAlong(bySpeed.cells, "p.voxel_edge"),
+              "true for no voxel_edge in every configuration, in some configurations for 0.5 to 8 m");
     // Values equal to their limit are undecided.
     EXPECT_EQ(judgedOverEdges([](int depth, int) { return depth == 4   ? 0.5
                                                           : depth == 5 ? 0.997

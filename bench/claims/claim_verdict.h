@@ -88,5 +88,8 @@ struct ClaimResult {
 /// separates true cells from false ones, their numbers. With a column `along`: for each combination of the other
 /// columns, the values of `along` for which the claim is true, false and undecided.
 [[nodiscard]] std::string conditionOf(const std::vector<ClaimCell>& cells, const std::string& along = "");
+/// In short: `true for voxel_edge 2 to 4 m, in some configurations for 8 m`, by the verdicts of the cells at each value
+/// of the column. Empty if a cell has no number in it.
+[[nodiscard]] std::string intervalAlong(const std::vector<ClaimCell>& cells, const std::string& column);
 
 }  // namespace dustbench::bench

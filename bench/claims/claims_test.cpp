@@ -178,6 +178,40 @@ TEST(Claims, OfTheDeviceSaySo) {
     EXPECT_EQ(verdictText(judged), "untestable");
 }
 
+TEST(Claims, OfTheDeviceAreToldForEachMachine) {
+    const auto told = [](bool device, const std::vector<ClaimVerdict>& ofMachines) {
+        JudgedClaim judged;
+        judged.claim.device = device;
+        judged.result.verdict = ClaimVerdict::unresolved;
+        tellByMachine(judged, ofMachines);
+        return verdictText(judged) + "; " + judged.result.condition;
+    };
+    using enum ClaimVerdict;
+    EXPECT_EQ(told(true, {confirmed, refuted}), "depends; confirmed on machine 1, refuted on machine 2");
+    EXPECT_EQ(told(true, {confirmed, notTested}),
+              "confirmed on this device; confirmed on machine 1, not-tested on machine 2");
+    EXPECT_EQ(told(true, {confirmed}), "unresolved on this device; ");
+    EXPECT_EQ(told(false, {confirmed, refuted}), "unresolved; ");
+    EXPECT_EQ(told(true, {notTested, notTested}), "unresolved on this device; ");
+}
+
+TEST(Claims, ThatDependOnANumberSayWhereTheyAreTrue) {
+    JudgedClaim judged;
+    judged.claim.rule.along = "p.voxel_edge";
+    const auto cell = [](const char* edge, ClaimVerdict verdict) {
+        ClaimCell made;
+        made.cell = {{"p.voxel_edge", edge}};
+        made.verdict = verdict;
+        return made;
+    };
+    judged.result.verdict = ClaimVerdict::depends;
+    judged.result.cells = {cell("4", ClaimVerdict::confirmed), cell("2", ClaimVerdict::confirmed),
+                           cell("1", ClaimVerdict::refuted)};
+    EXPECT_EQ(verdictText(judged), "depends: true for voxel_edge 2 to 4 m");
+    judged.result.verdict = ClaimVerdict::refuted;
+    EXPECT_EQ(verdictText(judged), "refuted");
+}
+
 TEST(Claims, EveryColumnOfTheCsvIsDescribed) {
     std::ifstream file(std::string(DUSTBENCH_SOURCE_DIR) + "/reports/SCHEMA.md");
     const std::string text(std::istreambuf_iterator<char>(file), {});

@@ -150,7 +150,8 @@ Command reportCommand() {
                                 options->labels);
                 arguments.text("--chart", "ID",
                                "write only one chart: a suite's id or its end (fig7), optionally with -stages or "
-                               "-quality appended, or frames; all: the chart of each suite",
+                               "-quality appended, a map of claims (by-voxel_edge), or frames; all: the chart of each "
+                               "suite, and the maps",
                                options->chart);
                 arguments.text("--format", "svg|png|pdf", "format of the chart; default: svg", options->format);
                 arguments.number("--pictures", "megabytes of pictures in the report; any beyond that are linked",

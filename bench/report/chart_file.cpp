@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -73,6 +75,31 @@ bool hasCostChart(const RunGroup& group) {
     return std::ranges::any_of(group.cells, isDrawn) && countWithoutSeeds(group) > 1;
 }
 
+/// The settings of a cell without the number along which its claim is tested; nullopt if the cell lacks that number.
+std::optional<Selection> othersThan(const std::string& along, Selection cell) {
+    const auto place = std::ranges::find(cell, along, &Selection::value_type::first);
+    if (place == cell.end()) return std::nullopt;
+    cell.erase(place);
+    return cell;
+}
+
+/// Maps of claims, as map_chart.js lists them: for each paper and number along which claims are tested, if a claim has
+/// another setting as well.
+std::vector<std::string> mapIds(const ReportData& data) {
+    std::vector<std::string> ids;
+    for (const Paper& paper : data.papers)
+        for (const JudgedClaim& judged : data.claims) {
+            const std::string& along = judged.claim.rule.along;
+            if (judged.paper != paper.id || along.empty()) continue;
+            std::set<std::optional<Selection>> others;
+            for (const ClaimCell& cell : judged.result.cells) others.insert(othersThan(along, cell.cell));
+            const std::string id = fmt::format("{}-by-{}", paper.id, nameOf(along));
+            if (others.size() > 1 && !others.contains(std::nullopt) && std::ranges::find(ids, id) == ids.end())
+                ids.push_back(id);
+        }
+    return ids;
+}
+
 }  // namespace
 
 std::vector<std::string> chartIds(const ReportData& data) {
@@ -82,6 +109,7 @@ std::vector<std::string> chartIds(const ReportData& data) {
         if (hasColumn(group, "frame_ms_median")) ids.push_back(group.id + "-stages");
         if (hasColumn(group, "flip")) ids.push_back(group.id + "-quality");
     }
+    std::ranges::move(mapIds(data), std::back_inserter(ids));
     if (!data.frameTimes.empty()) ids.emplace_back("frames");
     return ids;
 }
@@ -121,11 +149,13 @@ std::vector<fs::path> writeCharts(const ReportData& data, const std::string& id,
             fmt::format("--out: got '{}' with the format {}, allowed: a file that ends in .{}, or a folder",
                         target.out.string(), format, format));
     std::vector<std::string> ids;
-    if (id != "all")
+    if (id != "all") {
         ids = {resolved(data, id)};
-    else
+    } else {
         for (const RunGroup& group : data.groups)
             if (!group.suite.empty() && !isOfControls(data, group) && hasCostChart(group)) ids.push_back(group.id);
+        std::ranges::move(mapIds(data), std::back_inserter(ids));
+    }
     if (isFile && ids.size() != 1)
         throw InputError(
             fmt::format("--out: got the file '{}' for {} charts, allowed: a folder", target.out.string(), ids.size()));

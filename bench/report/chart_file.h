@@ -11,7 +11,8 @@
 
 namespace dustbench::bench {
 
-/// Ids of the charts that `writeCharts` can write for this data: `carr2006-fig7`, `carr2006-fig7-stages` …
+/// Ids of the charts that `writeCharts` can write for this data: `carr2006-fig7`, `carr2006-fig7-stages` …, and of maps
+/// of claims: `carr2006-by-voxel_edge`.
 [[nodiscard]] std::vector<std::string> chartIds(const ReportData& data);
 
 struct ChartTarget {
@@ -21,8 +22,8 @@ struct ChartTarget {
 };
 
 /// `id` may be a unique suffix of an id without `-quick` (`fig7`), or `all`: the chart of each suite except the
-/// controls'. Returns the files, ID.FORMAT. Throws InputError for an unknown id, and if node or rsvg-convert is missing
-/// or fails.
+/// controls', and the maps of claims. Returns the files, ID.FORMAT. Throws InputError for an unknown id, and if node or
+/// rsvg-convert is missing or fails.
 std::vector<std::filesystem::path> writeCharts(const ReportData& data, const std::string& id,
                                                const ChartTarget& target);
 

@@ -21,9 +21,15 @@ json claimNumber(double value) {
 }
 
 json claimCellJson(const ClaimCell& cell) {
-    return {{"text", textOf(cell.cell)},    {"measured", claimNumber(cell.measured)},
-            {"low", claimNumber(cell.low)}, {"high", claimNumber(cell.high)},
-            {"turns", cell.turns},          {"verdict", verdictName(cell.verdict)}};
+    json at = json::object();
+    for (const auto& [column, value] : cell.cell) at[nameOf(column)] = value;
+    return {{"text", textOf(cell.cell)},
+            {"at", std::move(at)},
+            {"low", claimNumber(cell.low)},
+            {"high", claimNumber(cell.high)},
+            {"turns", cell.turns},
+            {"verdict", verdictName(cell.verdict)},
+            {"measured", claimNumber(cell.measured)}};
 }
 
 /// The parts of the rule, from which the page makes sentences with names and units.
@@ -38,7 +44,8 @@ json ruleJson(const Rule& rule) {
             {"match", rule.match},
             {"of", textOf(rule.of)},
             {"with", textOf(rule.with)},
-            {"against", nameOf(rule.against)}};
+            {"against", nameOf(rule.against)},
+            {"along", nameOf(rule.along)}};
 }
 
 json controlsJson(const Claim& claim, const ClaimResult& result) {

@@ -47,7 +47,8 @@ bool isOlder(const StoredRun& run) {
     const auto method = std::ranges::find(methods(), cellIn(run, "method"), &MethodInfo::id);
     return method != methods().end() &&
            std::ranges::any_of(canonicalParameters(*method, {}), [&](const auto& parameter) {
-               return !parameter.second.empty() && !run.parameters.contains(parameter.first);
+               return !parameter.second.empty() && !isLaterDefault(parameter.first, parameter.second) &&
+                      !run.parameters.contains(parameter.first);
            });
 }
 

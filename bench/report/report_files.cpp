@@ -91,7 +91,7 @@ std::string chartSpecifications(const std::vector<std::string>& folders) {
 
 std::string chartScript() {
     return joined({"chart_style.js", "chart_data.js", "chart_parts.js", "published_marks.js", "cost_chart.js",
-                   "stage_chart.js", "quality_chart.js", "charts.js", "words.js"});
+                   "stage_chart.js", "quality_chart.js", "map_chart.js", "charts.js", "words.js"});
 }
 
 std::string pageScript() {

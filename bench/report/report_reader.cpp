@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <set>
 
 #include "bench/report/frame_times.h"
@@ -203,18 +204,36 @@ void placePublished(const std::string& paper, ReportData& data) {
     }
 }
 
-void readPapers(const fs::path& folder, ReportData& data) {
+/// The claims of a paper, from the runs: summary.csv may differ from them. Those about the device are judged for each
+/// machine by itself.
+std::vector<JudgedClaim> claimsOf(const std::string& paper, const fs::path& folder, const ReportData& data,
+                                  const MachineOfRun& machineOf) {
+    const auto judge = [&](const StoredRuns& runs) {
+        return judgeClaims(paper, files::CsvTable::parseText(summaryCsv(runs), (folder / "summary.csv").string()),
+                           readFindings(folder));
+    };
+    std::vector<JudgedClaim> claims = judge(data.runs);
+    if (data.machines.size() < 2) return claims;
+    std::vector<std::vector<ClaimVerdict>> ofMachines(claims.size());
+    for (std::size_t machine = 0; machine < data.machines.size(); ++machine) {
+        StoredRuns runs = data.runs;
+        std::erase_if(runs, [&](const auto& entry) { return machineOf.at(entry.first) != machine; });
+        const std::vector<JudgedClaim> own = judge(runs);
+        for (std::size_t i = 0; i < own.size(); ++i) ofMachines[i].push_back(own[i].result.verdict);
+    }
+    for (std::size_t i = 0; i < claims.size(); ++i) tellByMachine(claims[i], ofMachines[i]);
+    return claims;
+}
+
+void readPapers(const fs::path& folder, const MachineOfRun& machineOf, ReportData& data) {
     const std::set<std::string> ids = papersOf(data.groups);
     if (ids.empty()) return;
-    // Made from the runs: the file of that name may differ from them.
-    const auto summary = files::CsvTable::parseText(summaryCsv(data.runs), (folder / "summary.csv").string());
     for (const std::string& id : ids) {
         try {
             data.papers.push_back(loadPaper(id));
             inOrderOf(data.papers.back(), data.groups);
             placePublished(id, data);
-            for (JudgedClaim& claim : judgeClaims(id, summary, readFindings(folder)))
-                data.claims.push_back(std::move(claim));
+            std::ranges::move(claimsOf(id, folder, data, machineOf), std::back_inserter(data.claims));
         } catch (const InputError& fault) {
             data.problems.push_back(fmt::format("paper {}: {}", id, fault.what()));
         }
@@ -252,7 +271,7 @@ ReportData readReport(const fs::path& folder, std::int64_t maximumPictureBytes) 
     noteWhatIsNotDone(data);
     noteUnknownColumns(data);
     data.groups = sortIntoGroups(data.runs, machineOf, data.problems);
-    readPapers(folder, data);
+    readPapers(folder, machineOf, data);
     listFiles(folder, data);
     if (data.tablesOnly) return data;
     readFrameTimes(folder, data);

@@ -299,6 +299,30 @@ TEST(Report, ChartsOfASettingNeedMoreThanItsSeeds) {
     EXPECT_EQ(chartIds(data), (std::vector<std::string>{"one-stages", "two", "two-stages"}));
 }
 
+TEST(Report, AMapNeedsAClaimAlongANumberAndASecondSetting) {
+    const auto claim = [](const std::string& along, const std::vector<Selection>& cells) {
+        JudgedClaim made;
+        made.paper = "mud";
+        made.claim.rule.along = along;
+        for (const Selection& cell : cells) made.result.cells.emplace_back().cell = cell;
+        return made;
+    };
+    const auto cell = [](const char* edge, const char* speed) {
+        return Selection{{"p.voxel_edge", edge}, {"p.speed", speed}};
+    };
+    const auto idsOf = [](const JudgedClaim& judged) {
+        ReportData data;
+        data.papers.emplace_back().id = "mud";
+        data.claims = {judged, judged};
+        return chartIds(data);
+    };
+    EXPECT_EQ(idsOf(claim("p.voxel_edge", {cell("1", "5"), cell("1", "10"), cell("2", "5")})),
+              std::vector<std::string>{"mud-by-voxel_edge"});
+    EXPECT_TRUE(idsOf(claim("p.voxel_edge", {cell("1", "5"), cell("2", "5")})).empty()) << "one speed";
+    EXPECT_TRUE(idsOf(claim("p.depth", {cell("1", "5"), cell("1", "10")})).empty()) << "no depth";
+    EXPECT_TRUE(idsOf(claim("", {cell("1", "5"), cell("1", "10")})).empty());
+}
+
 TEST(PapersPage, ListsEachPaperWithItsVerdicts) {
     ReportData data;
     StoredRun warned = run("haze", 100, 1, 3), failed = run("haze", 200, 1, 3);

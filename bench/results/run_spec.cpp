@@ -102,6 +102,10 @@ void requireFramesWithinRun(const RunSpec& spec) {
                                  spec.volumes->frames.last, spec.frames - 1, spec.frames));
 }
 
+bool isLaterDefault(std::string_view name, std::string_view value) {
+    return name == "puffs_per_metre" && value == "0";
+}
+
 GivenDust givenDust(const RunSpec& spec) {
     return {spec.dust, spec.dustColumns, spec.warmup, spec.frames};
 }
@@ -110,7 +114,8 @@ std::string canonicalKey(const RunSpec& spec) {
     std::string key = fmt::format("method={}\nscene={}\ndrive={}\n", spec.method, spec.scene, spec.drive);
     if (!spec.cameraPath.empty()) key += fmt::format("camera_path={}\n", spec.cameraPath);
     if (!spec.dust.empty()) key += fmt::format("dust={}\ndust_columns={}\n", spec.dust, spec.dustColumns);
-    for (const auto& [name, text] : spec.parameters) key += fmt::format("p.{}={}\n", name, text);
+    for (const auto& [name, text] : spec.parameters)
+        if (!isLaterDefault(name, text)) key += fmt::format("p.{}={}\n", name, text);
     key += fmt::format("frames={}\nwarmup={}\nsize={}x{}\nseed={}\nthreads={}\nsync={}\nimages={}\nrepetition={}\n",
                        spec.frames, spec.warmup, spec.size.width, spec.size.height, spec.seed, spec.threads,
                        syncs.wordOf(spec.sync), spec.imagesEvery, spec.repetition);

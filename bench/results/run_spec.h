@@ -54,6 +54,9 @@ struct RunSpec {
 
 /// Throws InputError if a volume or metric is requested for a frame that the run does not record.
 void requireFramesWithinRun(const RunSpec& spec);
+/// True for the default of a parameter of the world that was added after results had been kept. Run ids leave it out,
+/// so that they still name those results.
+[[nodiscard]] bool isLaterDefault(std::string_view name, std::string_view value);
 /// The dust for World::useDust.
 [[nodiscard]] GivenDust givenDust(const RunSpec& spec);
 /// Throws InputError if a parameter changes after the last frame.

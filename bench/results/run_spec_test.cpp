@@ -73,6 +73,16 @@ TEST(RunSpec, ARunWithoutVolumesSaysNothingOfThem) {
     EXPECT_THAT(canonicalKey(RunSpec()), testing::Not(testing::HasSubstr("volume")));
 }
 
+TEST(RunSpec, IdIsThatOfBuildsWithoutALaterParameter) {
+    RunSpec today, before;
+    today.parameters = {{"particles", "100"}, {"puffs_per_metre", "0"}};
+    before.parameters = {{"particles", "100"}};
+    EXPECT_EQ(runId(today), runId(before));
+    today.parameters["puffs_per_metre"] = "2.5";
+    EXPECT_NE(runId(today), runId(before));
+    EXPECT_TRUE(isLaterDefault("puffs_per_metre", worldParameters().find("puffs_per_metre")->initial));
+}
+
 TEST(RunSpec, IdIsAReadablePlainFolderName) {
     RunSpec spec;
     spec.method = "haze";

@@ -15,6 +15,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/particles/part_change.h"
 #include "methods/kit/particles/particle_system.h"
 #include "methods/kit/particles/state_hash.h"
 
@@ -61,6 +62,21 @@ VehicleState placeBefore(const VehicleParameters& parameters, const scene::Terra
     return placeVehicle(parameters, terrain, x, z, heading, controls.initialSpeed());
 }
 
+/// The dust of the file, emitted as the parameters of the world require.
+particles::ParticleSystem emittedDust(const std::filesystem::path& file, const ParameterValues& parameters,
+                                      std::uint64_t seed) {
+    particles::ParticleSystem dust = particles::ParticleSystem::load(file, seed);
+    const double perMetre = parameters.real("puffs_per_metre");
+    if (perMetre <= 0) return dust;
+    if (const std::int64_t fixedCount = parameters.integer("particles"); fixedCount > 0)
+        throw InputError(
+            fmt::format("parameter puffs_per_metre: got {} with particles={}, allowed: 0, because the number is fixed",
+                        files::csvNumber(perMetre), fixedCount));
+    changePart(dust.parts(), "emission.rate_per_second", "0");
+    changePart(dust.parts(), "emission.rate_per_metre", files::csvNumber(perMetre));
+    return dust;
+}
+
 std::size_t bytesOf(const scene::Mesh& mesh) {
     return mesh.positions.size() * 3 * sizeof(glm::vec3) + mesh.indices.size() * sizeof(std::uint32_t);
 }
@@ -72,6 +88,8 @@ const ParameterSet& worldParameters() {
         ParameterSet set;
         set.integer("particles", 0, 0, 10'000'000, "",
                     "dust particles to keep alive on average; 0: according to the vehicle's speed");
+        set.real("puffs_per_metre", 0, 0, 1000, "1/m",
+                 "births of dust per metre driven, instead of the emission of the dust's file; 0: that of the file");
         set.real("speed", 0, 0, 60, "m/s", "replaces every target speed above 0 of the drive; 0: the drive's own");
         set.real("preroll", -1, -1, 120, "s", "untimed simulation before the drive begins; below 0: one mean lifetime");
         set.choice("camera", CameraKind::chase, cameraKinds, "which of the scene's cameras");
@@ -114,6 +132,7 @@ struct World::State {
     CameraKind camera;
     std::uint64_t seed;
     std::int64_t fixedCount;
+    double perMetre;
     std::int64_t particlesPerPuff;
     bool raisesDust;
     particles::ParticleSystem dust;  ///< stays empty if the wheels raise no dust
@@ -170,9 +189,10 @@ void World::begin(SceneFile file, const std::string& drive, std::unique_ptr<Cont
                                            .camera = parameters.choice("camera", cameraKinds),
                                            .seed = seed,
                                            .fixedCount = parameters.integer("particles"),
+                                           .perMetre = parameters.real("puffs_per_metre"),
                                            .particlesPerPuff = particlesPerPuff,
                                            .raisesDust = raisesDust,
-                                           .dust = particles::ParticleSystem::load(dustFile, seed),
+                                           .dust = emittedDust(dustFile, parameters, seed),
                                            .source = std::move(source)});
     State& s = *state_;
     s.file.scene.lights.onDust = parameters.choice("light", dustLights) == DustLight::sun;
@@ -261,6 +281,10 @@ void World::useDust(const GivenDust& given) {
             fmt::format("parameter particles: got {} with --dust {}, allowed: 0, because the file defines the "
                         "particles",
                         s.fixedCount, given.file));
+    if (s.perMetre > 0)
+        throw InputError(fmt::format(
+            "parameter puffs_per_metre: got {} with --dust {}, allowed: 0, because the file defines the particles",
+            files::csvNumber(s.perMetre), given.file));
     DustSeries series = DustSeries::read(given.file, given.columns);
     const double last = static_cast<double>(given.frames - 1) * stepSeconds;
     if (!series.isStill() && last > series.seconds() + sameMomentSeconds)

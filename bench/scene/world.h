@@ -26,7 +26,7 @@ namespace dustbench::bench {
 
 struct SceneFile;
 
-/// The parameters of the world itself, the same for every method: `particles`, `speed`, `preroll`, `camera`, …
+/// The parameters of the world itself, the same for every method: `particles`, `puffs_per_metre`, `speed`, `preroll`, …
 [[nodiscard]] const ParameterSet& worldParameters();
 
 class World {
@@ -60,8 +60,8 @@ class World {
 
     /// Uses particles from a file instead of the scene's own, from the first step on; an empty file name changes
     /// nothing. Its files become input files. The preroll is as long as with the scene's dust. Call before the first
-    /// step. Throws InputError for an error in the files, if they end before the last frame, and if `particles` is
-    /// above 0.
+    /// step. Throws InputError for an error in the files, if they end before the last frame, and if `particles`
+    /// or `puffs_per_metre` is above 0.
     void useDust(const GivenDust& given);
     /// True if the dust is from a file.
     [[nodiscard]] bool hasGivenDust() const;

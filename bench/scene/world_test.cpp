@@ -49,6 +49,29 @@ TEST(World, GivesAnotherStateForAnotherSeedSceneOrMoment) {
     EXPECT_NE(hashAfter("plain", 7, 61), expected);
 }
 
+TEST(World, PuffsPerMetreAreBornAtAnySpeed) {
+    for (const auto& [speed, perMetre] : {std::pair(20, 2.5), std::pair(10, 2.5), std::pair(10, 30.0)}) {
+        const auto parameters =
+            with({{"speed", std::to_string(speed)}, {"puffs_per_metre", std::to_string(perMetre)}, {"preroll", "5"}});
+        World world("carr_plain", "", parameters, 1);
+        run(world, world.prerollSteps());
+        EXPECT_NEAR(static_cast<double>(world.dust().size()), speed * perMetre * 4, 2) << "each lives for 4 s";
+    }
+    const auto fixed = with({{"particles", "100"}, {"puffs_per_metre", "2.5"}});
+    EXPECT_THAT(inputError([&] { World("carr_plain", "", fixed, 1); }),
+                testing::AllOf(HasSubstr("puffs_per_metre: got 2.5"), HasSubstr("particles=100")));
+}
+
+TEST(World, PuffsPerMetreOfTheFileGiveItsOwnState) {
+    const auto after = [](const std::map<std::string, std::string>& settings) {
+        World world("carr_plain", "", with(settings), 1);
+        run(world, 90);
+        return world.stateHash();
+    };
+    EXPECT_EQ(after({{"preroll", "1"}, {"puffs_per_metre", "10"}}), after({{"preroll", "1"}}));
+    EXPECT_NE(after({{"preroll", "1"}, {"puffs_per_metre", "9"}}), after({{"preroll", "1"}}));
+}
+
 TEST(World, SolidsGoByTheTimeAloneAndCountAmongItsState) {
     const TestFolder folder;
     const std::string head = "description = \"\"\n[[solid]]\nname = \"ball\"\nmesh = \"meshes/sphere.obj\"\n";

@@ -35,6 +35,19 @@ const chartParts = (() => {
         });
     };
 
+    /// Node has no fonts, so Vega assumes this letter width there, in font sizes.
+    const letterWidth = 0.8;
+    /// Breaks a sentence into lines that fit this width in pixels, of 28 letters or more.
+    const wrapped = (text, width, fontSize) => {
+        const letters = Math.max(Math.floor(width / (letterWidth * fontSize)), 28);
+        return text.split(' ').reduce((lines, word) => {
+            const last = lines[lines.length - 1];
+            if (last !== undefined && last.length + 1 + word.length <= letters) lines[lines.length - 1] = `${last} ${word}`;
+            else lines.push(word);
+            return lines;
+        }, []);
+    };
+
     const fresh = specification => JSON.parse(JSON.stringify(specification));
     const setSignals = (spec, values) => {
         for (const signal of spec.signals) if (signal.name in values) signal.value = values[signal.name];
@@ -125,7 +138,7 @@ const chartParts = (() => {
             ...quantities.flatMap(name => valueOf(cell, name) || [null, null, null])]),
     });
     return {
-        methodColour, seriesStyles, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, legendLines, domainOf, logTicks, setTicks, spans, intervalText,
+        methodColour, seriesStyles, letterWidth, wrapped, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, legendLines, domainOf, logTicks, setTicks, spans, intervalText,
         runsText, missing, mostRows, rowsOf, widestText, tableOf, digits,
     };
 })();

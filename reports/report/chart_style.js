@@ -33,7 +33,7 @@ const chartStyle = (() => {
                 labelColor: muted, titleColor: ink, gridColor: grid, domainColor: muted, tickColor: muted, labelFontSize: 11,
                 titleFontSize: 12, titleFontWeight: 500, titlePadding: 8, labelFont: font, titleFont: font,
             },
-            title: { color: ink, fontSize: 12.5, fontWeight: 600, font },
+            title: { color: ink, fontSize: 12.5, fontWeight: 600, font, subtitleColor: muted, subtitleFont: font },
             legend: { labelColor: ink, labelFontSize: 12, labelFont: font, symbolSize: 70, columnPadding: 18, rowPadding: 4, labelLimit: 0 },
             view: { stroke: null },
         };

@@ -7,7 +7,7 @@
 const chartKit = (() => {
     const { configOf, baseline, digits, themes, withUnit } = chartStyle;
     const { columnOf, valueOf, variantOf, worldOf, distinct, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf } = chartData;
-    const { methodColour, fresh, setSignals, setData, setScale, domainOf, missing } = chartParts;
+    const { methodColour, fresh, setSignals, setData, setScale, domainOf, missing, wrapped } = chartParts;
 
     /// An experiment as charts and tables show it, with seeds combined.
     const shownOf = experiment => experiment.shown || (experiment.shown = overSeeds(experiment));
@@ -21,6 +21,7 @@ const chartKit = (() => {
             if (experiment.cells.some(cell => valueOf(cell, 'frame_ms_median'))) charts.push({ id: experiment.id + '-stages', kind: 'stages', experiment });
             if (metricsOf(report, experiment).length && qualityChart.chargesOf(report, experiment).length) charts.push({ id: experiment.id + '-quality', kind: 'quality', experiment });
         }
+        charts.push(...mapChart.listOf(report).map(map => ({ ...map, kind: 'map' })));
         if (report.data.frames.length) charts.push({ id: 'frames', kind: 'frames' });
         return charts;
     };
@@ -64,7 +65,7 @@ const chartKit = (() => {
         };
     };
 
-    const builders = { cost: costChart.build, stages: stageChart.build, quality: qualityChart.build, frames: buildFrames };
+    const builders = { cost: costChart.build, stages: stageChart.build, quality: qualityChart.build, map: mapChart.build, frames: buildFrames };
     /// `AMD EPYC, 2 cores, llvmpipe`, of each machine.
     const devicesOf = (report, experiment) => {
         const machines = report.data.machines || [];
@@ -75,15 +76,7 @@ const chartKit = (() => {
             return machines.length > 1 ? `machine ${index + 1}, ${said}` : said;
         });
     };
-    /// Node has no fonts, so Vega assumes this letter width there, in font sizes.
-    const letterWidth = 0.8, captionSize = 11;
-    /// Breaks a sentence into lines of at most this many letters.
-    const wrapped = (text, letters) => text.split(' ').reduce((lines, word) => {
-        const last = lines[lines.length - 1];
-        if (last !== undefined && last.length + 1 + word.length <= letters) lines[lines.length - 1] = `${last} ${word}`;
-        else lines.push(word);
-        return lines;
-    }, []);
+    const captionSize = 11;
     /// Adds the caption below the chart, so that every saved picture has it: the meaning of the marks, and the device.
     const withCaption = (report, asked, built) => {
         if (!built.spec) return built;
@@ -91,7 +84,7 @@ const chartKit = (() => {
         const lines = [...(built.key || []), ...(devices.length ? [`Measured on ${devices.join('; ')}.`] : [])];
         if (lines.length)
             built.spec.title = {
-                text: lines.flatMap(line => wrapped(line, Math.max(Math.floor(asked.width / (letterWidth * captionSize)), 28))), orient: 'bottom', anchor: 'start', frame: 'bounds',
+                text: lines.flatMap(line => wrapped(line, asked.width, captionSize)), orient: 'bottom', anchor: 'start', frame: 'bounds',
                 offset: 12, fontSize: captionSize, fontWeight: 400, lineHeight: 15, color: themes[asked.theme].muted,
             };
         return { ...built, caption: lines };

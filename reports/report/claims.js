@@ -100,7 +100,7 @@ const claimList = (() => {
             element('div', { className: 'claim-mark' }, [
                 element('b', { textContent: claim.id }),
                 element('span', { className: `verdict ${claim.verdict}`, textContent: `${verdictMarks[claim.verdict]} ${claim.verdict}` }),
-                element('span', { className: 'verdict-device', textContent: claim.verdictText.slice(claim.verdict.length).trim() }),
+                element('span', { className: 'verdict-device', textContent: claim.verdictText.slice(claim.verdict.length).replace(/^:? /, '') }),
                 element('span', { className: 'muted control-state', textContent: controlTexts[claim.control] || '' }),
             ]),
             element('div', { className: 'claim-text' }, [

@@ -3,7 +3,7 @@
 const costChart = (() => {
     const { themes, digits, withUnit } = chartStyle;
     const { columnOf, axisTitle, shown, isWhole, valueOf, variantOf, worldOf, inOrder, distinct, loadsOf, quantitiesOf, opensOnCost } = chartData;
-    const { seriesStyles, methodColour, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, legendLines, domainOf, logTicks, setTicks, spans, intervalText, runsText, missing, rowsOf, widestText, tableOf } = chartParts;
+    const { seriesStyles, methodColour, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, legendLines, domainOf, logTicks, setTicks, spans, intervalText, runsText, missing, rowsOf, widestText, tableOf, letterWidth } = chartParts;
     /// The choice of bars, one for each setting, in place of a load.
     const bars = 'bars';
 
@@ -22,10 +22,19 @@ const costChart = (() => {
         return rows;
     };
 
+    /// The place of a value on an axis, from 0 to 1.
+    const shareOf = (value, [low, high], log) => (log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low));
+    const numberFormat = ',.6~r';
+    /// The format of an axis whose ticks are at these pixels: `2,000`, or `2k` where Vega would leave labels out for lack of space.
+    const tickFormat = (ticks, places) => {
+        const widths = ticks.map(tick => digits(tick, 6, true).length * letterWidth * 11);
+        const isTight = places.some((place, index) => index > 0 && place - places[index - 1] < (widths[index - 1] + widths[index]) / 2 + 6);
+        return isTight && ticks.every(tick => tick === 0 || Math.abs(tick) >= 1) ? '.6~s' : numberFormat;
+    };
+
     /// Labels with their heights in pixels, pushed apart where they would overlap.
     const pushedApart = (unsorted, domain, log, height) => {
-        const share = value => (log ? Math.log(value / domain[0]) / Math.log(domain[1] / domain[0]) : (value - domain[0]) / (domain[1] - domain[0]));
-        const labels = unsorted.map(label => ({ ...label, pixel: height * (1 - share(label.y)) })).sort((a, b) => a.pixel - b.pixel);
+        const labels = unsorted.map(label => ({ ...label, pixel: height * (1 - shareOf(label.y, domain, log)) })).sort((a, b) => a.pixel - b.pixel);
         const gap = 14;
         for (let round = 0; round < 60; ++round)
             for (let index = 1; index < labels.length; ++index) {
@@ -114,7 +123,7 @@ const costChart = (() => {
         const spec = fresh(report.specifications.cost);
         setSignals(spec, {
             panelWidth, panelHeight, panelColumns: columns, labelRoom, xTitle: axisTitle(load.name, load.unit === load.name ? '' : load.unit), yTitle: axisTitle(info.name, info.unit),
-            xFormat: ',.6~r', yFormat: yDomain[1] >= 1e6 ? '.4~s' : ',.6~r',
+            xFormat: numberFormat, yFormat: yDomain[1] >= 1e6 ? '.4~s' : ',.6~r',
             yStep: isWhole(info.unit) ? 1 : 0, legendColumns: legendColumns(chart.width, longest, series.length),
         });
         setData(spec, 'panels', shownPanels.map(panel => ({ panel })));
@@ -127,7 +136,8 @@ const costChart = (() => {
         setData(spec, 'factors', shownPanels.flatMap(panel => pushedApart(published.factors.filter(row => row.panel === panel), yDomain, yLog, panelHeight)));
         setData(spec, 'labels', labelled ? endLabels(seen, series, yDomain, yLog, panelHeight) : []);
         const names = series.map(({ name }) => name);
-        setScale(spec, 'x', xLog ? { type: 'log', domain: [xs[0] / Math.max(1.12, xFactor), xs[xs.length - 1] * Math.max(1.08, xFactor)] } : { type: 'linear', domain: [xs[0] - xRoom, xs[xs.length - 1] + xRoom] });
+        const xDomain = xLog ? [xs[0] / Math.max(1.12, xFactor), xs[xs.length - 1] * Math.max(1.08, xFactor)] : [xs[0] - xRoom, xs[xs.length - 1] + xRoom];
+        setScale(spec, 'x', { type: xLog ? 'log' : 'linear', domain: xDomain });
         setScale(spec, 'y', { type: yLog ? 'log' : 'linear', domain: yDomain });
         setScale(spec, 'colour', { domain: names, range: styles.map(style => style.colour) });
         setScale(spec, 'legendText', { domain: names, range: legendLines(names, chart.width) });
@@ -136,7 +146,10 @@ const costChart = (() => {
         if (yLog) setTicks(spec.marks[0].axes[0], logTicks(yDomain));
         if (labelled || series.length === 1) spec.legends = [];
         const ticks = distinct([...xs, ...published.marks.map(mark => mark.x)]).sort((a, b) => a - b);
-        if (xs.length <= 10) setTicks(spec.marks[0].axes[1], ticks);
+        if (xs.length <= 10) {
+            setTicks(spec.marks[0].axes[1], ticks);
+            setSignals(spec, { xFormat: tickFormat(ticks, ticks.map(tick => panelWidth * shareOf(tick, xDomain, xLog))) });
+        }
         const key = [];
         if (alone || series.length === 1) key.push(`Method: ${variantOf(report, experiment, cells[0], load.name)}.`);
         if (curves.length) key.push(`Wide pale lines: the fitted cost a + b·N^k${column === 'fps_avg' ? ' of the frame time, as a rate' : ''}.`);
@@ -178,5 +191,5 @@ const costChart = (() => {
         if (!column) return missing;
         return x === bars ? buildBars(report, chart, column) : buildCurves(report, chart, column, load);
     };
-    return { build, bars };
+    return { build, bars, tickFormat };
 })();

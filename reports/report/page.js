@@ -158,12 +158,20 @@
         put(here, element('article', { className: 'card' }, [pictureViewer.build(report, id => shortTitle(experimentOf(id)), id => isMain(experimentOf(id)))]));
     };
 
+    const addMap = (here, map) => {
+        const name = chartKit.columnOf(report, map.claims[0].rule.along).name;
+        const card = element('article', { className: 'card' }, [element('h3', { textContent: `Where claims are true, by ${name}` })]);
+        put(here, card);
+        cards.add(card, map);
+    };
+
     const addClaims = () => {
         const here = section('claims');
         if (!data.claims.length) put(here, paragraph('This folder contains no experiments from a paper, so there are no claims to test.', 'muted'));
         for (const paper of data.papers) {
             const claims = data.claims.filter(claim => claim.paper === paper.id);
             if (!claims.length) continue;
+            for (const map of chartKit.list(report).filter(chart => chart.kind === 'map' && chart.claims[0].paper === paper.id)) addMap(here, map);
             put(here, element('article', { className: 'card' }, [
                 ...(data.papers.length > 1 ? [element('h3', { textContent: paper.title }), paragraph(pageHead.citationOf(paper), 'muted')] : []),
                 ...claims.map(claim => claimList.entry(report, claim, runLinks)),

@@ -61,6 +61,7 @@ const words = (() => {
         const common = commonParts(names);
         return `${parts[0].slice(0, common).join(' ')}, mean of ${listOf(parts.map(part => part.slice(common).join(' ')))}`;
     };
+    const perUnit = (unit, per) => (unit === per ? '×' : `${unit || '1'} per ${per || '1'}`);
     /// The quantity that a claim's rule computes, and its unit.
     const quantityOf = (report, { rule }) => {
         const name = rule.column ? nameOf(report, rule.column) + (rule.per ? ` per ${nameOf(report, rule.per)}` : '') : '';
@@ -73,7 +74,7 @@ const words = (() => {
             trend: () => [`rank correlation (Kendall's τ) of the ${name} with ${rule.against}, ${of}`, ''],
             slopes: () => [`slope of the ${name} over ${rule.against}, upper half of the loads / lower half, ${of}`, '×'],
             exponent: () => [`exponent k of the ${name} = a + b·${rule.against}^k, ${of}`, ''],
-            value: () => [`${name}, ${of}`, columnOf(report, rule.column).unit],
+            value: () => [`${name}, ${of}`, rule.per ? perUnit(columnOf(report, rule.column).unit, columnOf(report, rule.per).unit) : columnOf(report, rule.column).unit],
             finding: () => [`${findingText(rule)} (experiment ${rule.experiment})`, rule.unit],
         };
         return kinds[rule.quantity] ? kinds[rule.quantity]() : ['', ''];

@@ -19,6 +19,7 @@ import shutil
 import statistics
 import subprocess
 import sys
+import textwrap
 import time
 
 import sample_readme
@@ -35,6 +36,7 @@ GROUPS = {"transparency": {
 GROUPED = {paper for group in GROUPS.values() for paper in group["papers"]}
 PAPERS = sorted(folder.parent.name for folder in (ROOT / "data" / "papers").glob("*/paper.toml") if folder.parent.name not in GROUPED)
 PAPER, SUITE = "carr2006", "carr2006-compare-quick"  # shown in README.md
+MAP = "carr2006-by-voxel_edge"  # the map of the paper's claims
 BEGIN, END = "<!-- sample: `make sample` writes what follows -->\n", "<!-- end of sample -->\n"
 GUIDE = ROOT / "reports" / "guide" / "which-transparency.md"  # with a table of the group `transparency`
 MACHINE = ("cpu", "cores", "gl_renderer", "git_commit", "started_utc")
@@ -83,6 +85,12 @@ def measure(program, paper):
         for chart in (SUITE, SUITE + "-stages"):
             subprocess.run([program, "report", out, "--chart", chart, "--format", "png"], check=True)
             shutil.copy(out / "charts" / f"{chart}.png", kept)
+        draw_map(program, kept)
+
+
+def draw_map(program, kept):
+    """Draws the map of the claims of the quick run, from its tables alone."""
+    subprocess.run([program, "report", kept, "--chart", MAP, "--out", kept / f"{MAP}-quick.svg"], check=True)
 
 
 def measure_group(program, name):
@@ -124,10 +132,11 @@ def measure_full(program, paper):
 
 
 def draw_full(program, paper):
-    """Draws the chart of each suite's full run, from the tables alone. A suite that has changed since keeps its last chart."""
+    """Draws the chart of each suite's full run and the maps of claims, from the tables alone. A suite that has changed since keeps
+    its last chart."""
     suites = {file.stem for file in (ROOT / "data" / "papers" / paper / "suites").glob("*.toml")}
     for old in (HERE / paper).glob("*.svg"):
-        if old.stem not in suites:
+        if old.stem not in suites and not old.stem.endswith("-quick"):
             old.unlink()
     subprocess.run([program, "report", HERE / paper / "full", "--chart", "all", "--out", HERE / paper], check=True)
 
@@ -165,6 +174,15 @@ def table():
     return lines
 
 
+def figures_text():
+    modes = {row["p.mode"] for row in rows("full/summary.csv") if row["status"] == "done" and row["width"] == "640" and row["p.mode"]}
+    models = ("the models as printed in the paper (`mode=paper`), and our corrected models (`mode=fixed`) at 20 m/s" if "paper" in modes else
+              "our corrected models (`mode=fixed`); the models as printed have only been measured in quick runs so far")
+    text = (f"Figures 5 and 7 of the paper, with all loads and speeds of their suites, at 640×480 pixels. They were measured with {models}. "
+            "The paper states no numbers for these figures, so compare the shapes of the curves.")
+    return "\n".join(textwrap.wrap(text, 150))
+
+
 def block():
     machine = rows("machine.csv")[0]
     repetitions = max(int(row["repetition"]) for row in filter(is_of_suite, rows("summary.csv")))
@@ -175,7 +193,7 @@ def block():
         "The models are as printed in the paper (`mode=paper`). *Build* is the time to build the octree and *draw* the time to draw the dust; most of the",
         "remaining time is spent on the scene.", ""]
         + table() + ["", f"![Frame rate of the three methods against the number of particles, with intervals](reports/sample/{PAPER}/{SUITE}.png)", "",
-                     "Figures 5 and 7 of the paper, with all loads and speeds of their suites, at 640×480 pixels. They were measured with our corrected models\n(`mode=fixed`); the models as printed have only been measured in quick runs so far. The paper states no numbers for these figures, so compare the\nshapes of the curves.", "",
+                     figures_text(), "",
                      f"![Frame rate of the billboard model against the number of particles, a curve for each speed](reports/sample/{PAPER}/{PAPER}-fig5.svg)", "",
                      f"![Frame rate of both octree models against the number of particles, a panel for each speed](reports/sample/{PAPER}/{PAPER}-fig7.svg)",
                      "", END.rstrip("\n"), ""])
@@ -279,6 +297,8 @@ def main(arguments):
                 (draw_group if charts else measure_group)(program, paper)
             else:
                 (draw_full if charts else measure_full if full else measure)(program, paper)
+                if charts and paper == PAPER:
+                    draw_map(program, HERE / paper)
     write()
 
 

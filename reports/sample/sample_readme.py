@@ -71,6 +71,8 @@ def chart_lines(folder):
     for chart in sorted(folder.glob("*.svg")):
         suite = chart.stem.removesuffix("-quality").removesuffix("-quick")
         what = titles.get(suite, suite) + (": error against cost" if chart.stem.endswith("-quality") else "")
+        if "-by-" in suite:
+            what = f"Where each claim is true, by `{suite.partition('-by-')[2]}`"
         lines += [f"**{what}** (`{suite}`)", "", f"![{what}]({chart.name})", ""]
     return lines
 
@@ -85,5 +87,5 @@ def readme(folder, title, made_by):
              "The page with all charts and tables, from these tables:", "", "```sh",
              f"build/release/dustbench report reports/sample/{name} --out out/{name}", "```", "", "## Verdicts", "", *verdict_lines(claims), ""]
     if charts:
-        lines += ["## Charts", ""] + (["From the [full run](full/README.md).", ""] if full else []) + charts
+        lines += ["## Charts", ""] + (["Names that end in `-quick` belong to the quick run, the others to the [full run](full/README.md).", ""] if full else []) + charts
     return "\n".join(lines).rstrip("\n") + "\n"

@@ -111,7 +111,7 @@ def write_run(folder, row, settings, warnings=()):
     os.makedirs(place)
     with open(os.path.join(place, "run.json"), "w", encoding="utf-8") as stream:
         json.dump({"run_id": row["run_id"], "status": row["status"], "reason": row["reason"], "method": row["method"],
-                   "parameters": settings, "state_hash": "", "method_hash": None, "summary": row, "warnings": warnings,
+                   "parameters": settings | ({"world_edge": "128"} if "depth" in settings else {}), "state_hash": "", "method_hash": None, "summary": row, "warnings": warnings,
                    "provenance": {"cpu": "made up " + EVIL, "cores": 2, "governor": "", "gl_renderer": "llvmpipe (made up)",
                                   "build_type": "Release", "inputs": []}}, stream)
     return place

@@ -22,7 +22,8 @@ class ReportCharts(page_case.PageCase):
         self.browser.evaluate("document.getElementById('other-runs').open = true")
         marks = self.marks()
         expected = {f"chart-{suite}-quick{part}" for suite in page_case.SUITES for part in ("", "-stages")}
-        self.assertEqual(set(marks), expected | {"chart-carr2006-flaws-quick-quality", "chart-frames", "chart-other", "chart-other-stages"})
+        self.assertEqual(set(marks), expected | {"chart-carr2006-flaws-quick-quality", "chart-frames", "chart-other", "chart-other-stages",
+                                                "chart-carr2006-by-voxel_edge"})
         self.assertTrue(all(count > 3 for count in marks.values()), marks)
 
     def test_a_method_switched_off_leaves_every_chart(self):
@@ -128,6 +129,43 @@ class ReportCharts(page_case.PageCase):
         self.assertIn("--sync frame", self.browser.evaluate(f"document.querySelector('#{chart} + .note').textContent"))
         self.choose(chart, "part", "frame")
         self.assertEqual(legend(), list(made_folder.STAGES))
+
+    def test_labels_are_short_where_long_ones_would_be_left_out(self):
+        self.assertEqual(self.browser.evaluate("""[[[100, 2000, 5000], [0, 60, 94]], [[100, 2000, 5000], [0, 90, 180]], [[0.25, 0.5], [0, 20]]]
+            .map(([ticks, places]) => costChart.tickFormat(ticks, places))"""), [".6~s", ",.6~r", ",.6~r"])
+
+    def test_a_map_shows_the_verdict_of_each_configuration(self):
+        built = self.browser.evaluate("(() => { const { spec, table, caption } = " + BUILT % "carr2006-by-voxel_edge" + """;
+            const of = name => spec.data.find(item => item.name === name).values;
+            return { panels: of('panels'), tiles: of('tiles'), table, caption }; })()""")
+        self.assertIn(["R2a: confirmed"], [panel["title"] for panel in built["panels"]])
+        tiles = [tile for tile in built["tiles"] if tile["panel"] == "R2af"]
+        self.assertEqual({(tile["x"], tile["y"]) for tile in tiles}, {(load, edge) for load in ("1000", "50000") for edge in ("2", "0.0625")})
+        for tile in tiles:
+            self.assertEqual(tile["row"], 0 if tile["y"] == "2" else 1, "the largest voxel on top")
+            self.assertEqual(tile["column"], 0 if tile["x"] == "1000" else 1)
+            self.assertEqual(tile["verdict"], "confirmed")
+            self.assertRegex(tile["text"], r"^✓ 0\.8\d*×$")
+        self.assertEqual(sum(row[0] == "R2af" for row in built["table"]["rows"]), len(tiles))
+        self.assertIn("llvmpipe (made up)", built["caption"][-1])
+        self.assertEqual(self.browser.evaluate("document.querySelectorAll('#chart-carr2006-by-voxel_edge .tile path').length"), len(built["tiles"]))
+
+    def test_settings_beyond_two_divide_a_tile(self):
+        tiles = self.browser.evaluate("""(() => {
+            const cell = (edge, speed, levels, verdict) => ({ at: { voxel_edge: edge, speed, levels }, text: '', verdict, measured: 2, low: 1, high: 3, turns: 6 });
+            const claim = { id: 'X', paper: 'x', text: 'x', verdict: 'depends', verdictText: 'depends', min: null, max: 1, measured: 2, low: 1, high: 3, controls: [],
+                rule: { quantity: 'value', column: 'gaps', per: '', parts: [], of: '', with: '', along: 'voxel_edge' },
+                cells: ['4', '8'].flatMap(edge => ['10', '5'].flatMap(speed => ['2', '1'].map(levels => cell(edge, speed, levels, levels === '1' ? 'confirmed' : 'refuted')))) };
+            const read = id => JSON.parse(document.getElementById(id).textContent);
+            const data = { ...read('report-data'), claims: [claim], papers: [{ id: 'x' }] };
+            const report = { data, columns: read('report-columns'), specifications: read('report-charts') };
+            const map = mapChart.listOf(report)[0];
+            const built = chartKit.build(report, { ...map, kind: 'map' });
+            return [map.id, built.spec.data.find(item => item.name === 'tiles').values.map(tile => [tile.x, tile.y, tile.strip, tile.strips, tile.text]), built.caption.join(' ')];
+        })()""")
+        self.assertEqual(tiles[0], "x-by-voxel_edge")
+        self.assertEqual(sorted(tiles[1]), sorted([speed, edge, strip, 2, "✓✗"[strip]] for speed in ("5", "10") for edge in ("4", "8") for strip in (0, 1)))
+        self.assertIn("from left to right: levels 1, 2.", tiles[2])
 
     def test_where_methods_lack_the_load_all_are_bars(self):
         built = self.browser.evaluate("""(() => {
