@@ -83,7 +83,7 @@ std::string listed(const std::vector<ClaimCell>& cells) {
     }
     const bool fewFail = failing.size() <= holding.size();
     const std::vector<std::string>& fewer = fewFail ? failing : holding;
-    std::string text = fmt::format("true in {} of {} cells", holding.size(), cells.size());
+    std::string text = fmt::format("true in {} of {} cases", holding.size(), cells.size());
     if (fewer.size() <= maximumListed)
         text += fmt::format(": {} {}", fewFail ? "false with" : "only with", fmt::join(fewer, "; "));
     return text;

@@ -16,13 +16,13 @@ void append(std::string& text, const std::string& more) {
     text += (text.empty() ? "" : "; ") + more;
 }
 
-/// `refuted, as known (1.31: 40 times the particles)`.
+/// `refuted, as expected (1.31: 40 times the particles)`.
 std::string outcomeText(const ControlRule& control, const ClaimResult& found) {
-    const bool asKnown = found.verdict == verdictOf(control.gives);
-    return fmt::format("{}{} ({}: {})", verdictName(found.verdict),
-                       asKnown ? ", as known" : fmt::format(", known: {}", verdictName(verdictOf(control.gives))),
-                       std::isfinite(found.measured) ? control.rule.textOf(found.measured) : "nothing measured",
-                       control.why);
+    const bool isExpected = found.verdict == verdictOf(control.gives);
+    return fmt::format(
+        "{}{} ({}: {})", verdictName(found.verdict),
+        isExpected ? ", as expected" : fmt::format(", expected: {}", verdictName(verdictOf(control.gives))),
+        std::isfinite(found.measured) ? control.rule.textOf(found.measured) : "nothing measured", control.why);
 }
 
 /// True if the control shows that another verdict than this one is possible.
@@ -58,7 +58,7 @@ ClaimResult judgeWithControls(const Claim& claim, const RuleJudge& judge) {
     else
         result.control = missing ? ControlState::notRun : ControlState::turned;
     if (result.control != ControlState::notTurned) return result;
-    append(result.note, fmt::format("measured: {}; its control did not turn", verdictName(result.verdict)));
+    append(result.note, fmt::format("measured: {}; the control did not reverse it", verdictName(result.verdict)));
     result.verdict = ClaimVerdict::untestable;
     return result;
 }

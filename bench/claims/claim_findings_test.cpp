@@ -51,7 +51,7 @@ TEST(ClaimFindings, OfSeveralShapesAreCells) {
     };
     EXPECT_EQ(judgedAt(0.95, 0.99, 0.01, 5).verdict, ClaimVerdict::confirmed);
     EXPECT_EQ(judgedAt(0.80, 0.85, 0.01, 5).verdict, ClaimVerdict::refuted);
-    EXPECT_EQ(judgedAt(0.95, 0.905, 0.01, 5).note, "of 2 cells, 1 confirmed, 0 refuted");
+    EXPECT_EQ(judgedAt(0.95, 0.905, 0.01, 5).note, "of 2 cases, 1 confirmed, 0 refuted");
     const ClaimResult mixed = judgedAt(0.95, 0.80, 0.01, 5);
     EXPECT_EQ(mixed.verdict, ClaimVerdict::depends);
     EXPECT_EQ(mixed.condition, "true for finding kept_car, false with kept_bunny");

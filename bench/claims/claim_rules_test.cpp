@@ -376,7 +376,7 @@ TEST(ClaimRules, CounterexamplesRefuteAlthoughACellIsOpen) {
     };
     const ClaimResult result = judged(faster, openAt({800}, 2));
     EXPECT_EQ(result.verdict, ClaimVerdict::refuted);
-    EXPECT_EQ(result.note, "of 4 cells, 0 confirmed, 3 refuted");
+    EXPECT_EQ(result.note, "of 4 cases, 0 confirmed, 3 refuted");
     EXPECT_TRUE(result.condition.empty());
     // Half of the cells do not suffice, although the mean is just as far outside.
     const ClaimResult half = judged(faster, openAt({400, 800}, 2));
@@ -459,7 +459,7 @@ TEST(ClaimRules, AMatchedRatioIsTakenWhereTheOtherColumnIsTheSame) {
     EXPECT_NEAR(result.measured, 0.25, 0.002);
     // With 1600 and 3200 particles, haze has fewer gaps than mist ever reaches.
     EXPECT_EQ(result.cells.size(), 4u);
-    EXPECT_EQ(result.note, "12 runs left out: no gaps of mist is equal to theirs");
+    EXPECT_EQ(result.note, "12 runs left out: no run of mist has the same gaps");
 }
 
 const std::string slowed =
@@ -475,7 +475,7 @@ TEST(ClaimControls, OneThatTurnsLeavesTheVerdict) {
     const ClaimResult result = controlled(faster + slowed, ratioOf(0.9));
     EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
     EXPECT_EQ(result.control, ControlState::turned);
-    EXPECT_EQ(result.controlNote, "refuted, as known (1.111: swapped)");
+    EXPECT_EQ(result.controlNote, "refuted, as expected (1.111: swapped)");
     ASSERT_EQ(result.controls.size(), 1u);
     EXPECT_EQ(result.controls[0].verdict, ClaimVerdict::refuted);
     EXPECT_NEAR(result.controls[0].measured, 1 / 0.9, 1e-3);
@@ -487,8 +487,8 @@ TEST(ClaimControls, ARuleThatCannotFailIsUntestable) {
     const ClaimResult result = controlled(lax + slowed, ratioOf(0.9));
     EXPECT_EQ(result.verdict, ClaimVerdict::untestable);
     EXPECT_EQ(result.control, ControlState::notTurned);
-    EXPECT_EQ(result.note, "measured: confirmed; its control did not turn");
-    EXPECT_EQ(result.controlNote, "confirmed, known: refuted (1.111: swapped)");
+    EXPECT_EQ(result.note, "measured: confirmed; the control did not reverse it");
+    EXPECT_EQ(result.controlNote, "confirmed, expected: refuted (1.111: swapped)");
 }
 
 TEST(ClaimControls, ARefutedClaimNeedsAControlThatConfirms) {

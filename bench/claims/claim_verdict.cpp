@@ -169,7 +169,7 @@ std::string openCells(const Rule& rule, const std::vector<ClaimCell>& cells) {
         return fmt::format("{} {}{}, {} are needed", fewest->turns, turnName(rule), fewest->turns == 1 ? "" : "s",
                            minimumTurns(rule));
     if (cells.size() == 1) return "";
-    return fmt::format("of {} cells, {} confirmed, {} refuted", cells.size(), countOf(cells, ClaimVerdict::confirmed),
+    return fmt::format("of {} cases, {} confirmed, {} refuted", cells.size(), countOf(cells, ClaimVerdict::confirmed),
                        countOf(cells, ClaimVerdict::refuted));
 }
 
@@ -206,8 +206,8 @@ void judgeSamples(const Rule& rule, const ClaimSamples& samples, ClaimResult& re
     const auto add = [&](const std::string& more) { result.note += (result.note.empty() ? "" : "; ") + more; };
     if (samples.undefined > 0) add(fmt::format("{} pairs without a ratio: both are 0", samples.undefined));
     if (samples.unmatched > 0)
-        add(fmt::format("{} runs left out: no {} of {} is equal to theirs", samples.unmatched, rule.match,
-                        textOf(rule.with)));
+        add(fmt::format("{} runs left out: no run of {} has the same {}", samples.unmatched, textOf(rule.with),
+                        rule.match));
 }
 
 void judgeCurves(const Rule& rule, const CostCurves& curves, ClaimResult& result) {

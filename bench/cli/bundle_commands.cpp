@@ -103,7 +103,7 @@ int repeatRuns(const bench::OpenedBundle& bundle, const std::vector<bench::Exact
     for (const bench::ExactRun& each : exact) {
         const std::string whyNot = whyNotHere(each, bundle.runs.at(each.runIds.front()));
         if (!whyNot.empty()) {
-            std::cout << fmt::format("{}: not run again: {}\n", nameOf(each), files::printable(whyNot));
+            std::cout << fmt::format("{}: not repeated: {}\n", nameOf(each), files::printable(whyNot));
             continue;
         }
         plan.push_back({each.spec, ""});

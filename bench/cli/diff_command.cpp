@@ -37,7 +37,7 @@ struct Differences {
 };
 
 bench::Picture pictureOf(const std::string& file) {
-    if (std::filesystem::is_directory(file)) throw InputError("cannot read image '" + file + "': it is a folder");
+    if (std::filesystem::is_directory(file)) throw InputError("image '" + file + "' cannot be read: it is a folder");
     return bench::preparePicture(pictures::readImage(file), "'" + file + "'");
 }
 

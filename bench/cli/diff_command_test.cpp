@@ -120,7 +120,7 @@ TEST_F(DiffCommand, RefusesWhatItCannotCompareInOneLine) {
 
     expectRefused(diff(good, good, "--pixels-per-degree 0"), "allowed: number 1..1000");
     expectRefused(diff(good, good, "--out map.jpg"), "--out: got 'map.jpg', allowed: a file that ends in .png");
-    expectRefused(diff(good, good, "--out '" + (folder_ / "none" / "map.png").string() + "'"), "cannot write image");
+    expectRefused(diff(good, good, "--out '" + (folder_ / "none" / "map.png").string() + "'"), "cannot be written");
     expectRefused(call("diff " + good), "image");
 }
 

@@ -82,7 +82,7 @@ int list(const ListOptions& options) {
             const bool ofLibraries = kind == "methods" || (kind == "parts" && !options.what.empty());
             if (ofLibraries && options.id.empty()) printRefusedLibraries();
             if (kind == "methods" && !options.what.empty() && options.id.empty()) {
-                std::cout << "parameters of the world, which every method has as well:\n";
+                std::cout << "parameters of the world, available with every method:\n";
                 printParameters(bench::worldParameterList());
             }
         }

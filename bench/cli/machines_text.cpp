@@ -128,7 +128,7 @@ std::string machinesText(const MachineComparison& comparison) {
     const bench::MachineRemarks& remarks = comparison.remarks;
     std::string text = hardwareText(comparison);
     text += listOf("cannot be compared", remarks.apart);
-    text += listOf("the programs differ, so ratios may differ whatever the machines", remarks.programs);
+    text += listOf("the programs differ, so ratios may differ for reasons other than the machines", remarks.programs);
     text += listOf("notes", remarks.notes);
     text += listOf("missing configurations", missingCells(comparison));
     for (const MachineExperiment& experiment : comparison.experiments) text += experimentText(comparison, experiment);

@@ -152,10 +152,10 @@ class MachineMeasurement {
             std::cerr << fmt::format("{} further repetitions did not fit into {}\n", ladder_.repetitionsLeftOut(),
                                      bench::durationText(limits_.totalSeconds));
         if (slowed_ > 0)
-            std::cerr << fmt::format("{} runs have a clock that fell, also when measured again: see their warnings\n",
-                                     slowed_);
+            std::cerr << fmt::format(
+                "runs whose clock fell, even when they were measured again: {}; see their warnings\n", slowed_);
         if (!outdated_.empty())
-            std::cerr << "outdated: some results are of another build; measure into a new folder ("
+            std::cerr << "outdated: another build measured some of the results; measure into a new folder ("
                       << files::printable(outdated_) << ")\n";
     }
 
@@ -256,7 +256,7 @@ int measureMachine(const MeasureMachineOptions& options) {
     checkWorlds(runs);
     const fs::path out(options.out), archive = bundleOf(out);
     if (fs::exists(fs::symlink_status(archive)) && !fs::exists(out / "runs"))
-        throw InputError(fmt::format("bundle '{}': exists already and is not of '{}'; choose another --out",
+        throw InputError(fmt::format("bundle '{}': already exists and does not belong to '{}'; choose another --out",
                                      archive.string(), out.string()));
     if (fs::is_directory(out)) bench::requireOwnPage(out);
     const bench::LadderLimits limits = limitsHere(plan);

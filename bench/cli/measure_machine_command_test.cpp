@@ -125,7 +125,7 @@ TEST_F(MeasureMachine, MeasuresAgainOnceWhereTheClockFellAndThenMarksTheRun) {
         EXPECT_NE(second, std::string::npos) << line;
         EXPECT_EQ(called.err.find(line, second + 1), std::string::npos) << line;
     }
-    EXPECT_THAT(called.err, HasSubstr("4 runs have a clock that fell, also when measured again"));
+    EXPECT_THAT(called.err, HasSubstr("runs whose clock fell, even when they were measured again: 4"));
     const files::CsvTable table = summary();
     for (std::size_t row = 0; row < table.rows(); ++row)
         EXPECT_LT(table.number(row, "gpu_mhz_min"), table.number(row, "gpu_mhz_max"));

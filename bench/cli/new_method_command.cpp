@@ -82,7 +82,7 @@ int newMethod(const std::string& id) {
     fs::create_directory(id);
     for (const TemplateFile& file : templateFiles) {
         const fs::path from = files::dataPath(fs::path("templates/method") / file.from);
-        if (from.empty()) throw InputError(fmt::format("data: no file templates/method/{}", file.from));
+        if (from.empty()) throw InputError(fmt::format("data: the file templates/method/{} is missing", file.from));
         bench::writeWhole(fs::path(id) / filledIn(file.to, id), filledIn(files::wholeText(from, "template"), id));
     }
     std::cout << fmt::format(

@@ -40,7 +40,8 @@ std::vector<bench::Condition> conditionsOf(const RecommendOptions& options) {
 void drawChart(const RecommendOptions& options, const bench::Rankings& rankings, const bench::MeasuredRuns& runs,
                const bench::Budget& budget) {
     const std::size_t leftOut = bench::drawRecommendation(rankings, runs, budget, options.chart, "--chart");
-    std::cerr << "note: " << files::printable(options.chart) << " written; ringed and joined: the Pareto front, where "
+    std::cerr << "note: " << files::printable(options.chart)
+              << " written; rings and the line mark the Pareto front, where "
               << "intervals do not overlap\n";
     if (leftOut > 0)
         std::cerr << "note: " << leftOut

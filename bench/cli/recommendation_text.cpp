@@ -241,7 +241,8 @@ std::string incompleteText(const bench::Rankings& rankings) {
     std::string text =
         namesOfSettings(timed, fmt::format("not ranked: a time but no {}", rankings.quality.column)) +
         namesOfSettings(judged, fmt::format("not ranked: {} but no time of the method", rankings.quality.column)) +
-        namesOfSettings(both, "not ranked: compared over other frames or with another reference than the rest");
+        namesOfSettings(both,
+                        "not ranked: compared over different frames or with a different reference from the others");
     if (neither > 0)
         text += fmt::format("not ranked: {} settings with neither, run without the null method and metrics\n", neither);
     return printableLines(text);

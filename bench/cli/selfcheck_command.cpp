@@ -96,7 +96,7 @@ Command selfcheckCommand() {
     auto json = std::make_shared<bool>(false);
     return {"selfcheck", "Check that this machine is fit for measurements and that its GPU draws correctly",
             "Takes up to 3 minutes without a GPU. Draws a picture of each method and compares it with its reference; "
-            "tests\nblending, formats, atomics, barriers and timers; measures what the device can do. Exit code 1: a "
+            "tests\nblending, formats, atomics, barriers and timers; measures the device's rates. Exit code 1: a "
             "check failed.",
             [out, json](Arguments& arguments) {
                 arguments.text("--out", "DIR", "keep selfcheck.json and the pictures here", *out);

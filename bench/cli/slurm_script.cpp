@@ -58,7 +58,7 @@ std::string slurmScript(const SlurmJob& job) {
     std::string arguments;
     for (const std::string& word : job.arguments) arguments += " " + bench::shellQuoted(word);
     const std::filesystem::path file = files::dataPath("templates/slurm.sh");
-    if (file.empty()) throw InputError("data: no file templates/slurm.sh");
+    if (file.empty()) throw InputError("data: the file templates/slurm.sh is missing");
     return bench::filled(files::wholeText(file, "template"), {{"name", plainName(job.name)},
                                                               {"shards", std::to_string(job.shards)},
                                                               {"time", slurmTime(seconds)},

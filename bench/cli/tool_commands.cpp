@@ -23,7 +23,7 @@ int runTool(const ToolInfo& tool, const std::vector<ToolArgument>& given) {
 
 void add(std::vector<ToolArgument>& given, const ToolOption& option, const std::string& value) {
     if (!option.repeats && std::ranges::find(given, option.name, &ToolArgument::name) != given.end())
-        throw InputError(option.name + ": got '" + value + "' as well, allowed: once");
+        throw InputError(option.name + ": got '" + value + "' in addition, allowed: once");
     given.push_back({option.name, value});
 }
 

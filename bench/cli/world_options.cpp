@@ -44,7 +44,7 @@ void WorldOptions::declareWorld(Arguments& arguments) {
         cameraPath);
     arguments.text(
         "--dust", "FILE",
-        "particles of another program instead of the scene's dust: .vtp, .vdb, .csv, a volume, or a series of them, "
+        "particles from another program instead of the scene's dust: .vtp, .vdb, .csv, a volume, or a series of them, "
         ".pvd or .series, whose first moment is frame 0",
         dust);
     arguments.text("--dust-columns", "key=NAME,…",

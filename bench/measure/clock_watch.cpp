@@ -48,8 +48,8 @@ std::string ClockWatch::warning() const {
     if (fall_.highest - fall_.lowest > tolerance * fall_.highest)
         text = fmt::format("{}the GPU's from {} to {} MHz", prefix, fall_.highest, fall_.lowest);
     if (heldBy_.empty()) return text;
-    return text.empty() ? fmt::format("{}the GPU's is held down by {}", prefix, heldBy_)
-                        : text + ", held down by " + heldBy_;
+    return text.empty() ? fmt::format("{}the GPU's is limited by {}", prefix, heldBy_)
+                        : text + ", limited by " + heldBy_;
 }
 
 std::string throttlingWarning(std::int64_t eventsBefore, std::int64_t eventsAfter) {

@@ -30,7 +30,7 @@ class ClockWatch {
     };
     /// Empty if nothing was read.
     [[nodiscard]] std::optional<Range> range() const { return range_; }
-    /// Why times are those of a slower GPU: `clock fell: the GPU's from 1800 to 900 MHz, held down by heat`; empty if
+    /// Why times are those of a slower GPU: `clock fell: the GPU's from 1800 to 900 MHz, limited by heat`; empty if
     /// the clock was steady.
     [[nodiscard]] std::string warning() const;
 

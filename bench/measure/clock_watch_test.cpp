@@ -41,8 +41,8 @@ TEST(ClockWatch, IsSilentWhileTheClockRisesOrMovesByAFewSteps) {
 TEST(ClockWatch, NamesAFallAndItsCause) {
     EXPECT_EQ(watched({{1800}, {1500}, {1790}}).warning(), "clock fell: the GPU's from 1800 to 1500 MHz");
     EXPECT_EQ(watched({{1800}, {1500, "heat"}}).warning(),
-              "clock fell: the GPU's from 1800 to 1500 MHz, held down by heat");
-    EXPECT_EQ(watched({{1800, "power cap"}, {1800}}).warning(), "clock fell: the GPU's is held down by power cap");
+              "clock fell: the GPU's from 1800 to 1500 MHz, limited by heat");
+    EXPECT_EQ(watched({{1800, "power cap"}, {1800}}).warning(), "clock fell: the GPU's is limited by power cap");
 }
 
 TEST(ClockWatch, SaysNothingWithoutAClockOrOnceItCannotBeRead) {

@@ -49,7 +49,8 @@ void checkDistances(const scene::View& view, const OpaqueDistances& distances) {
                                                 view.height));
     for (const double metres : distances.metres)
         if (!(metres >= 0))
-            throw std::invalid_argument(fmt::format("ground truth: got the distance {} m to the scene", metres));
+            throw std::invalid_argument(
+                fmt::format("ground truth: got the distance {} m to the scene, allowed: 0 or more", metres));
 }
 
 }  // namespace dustbench::bench

@@ -49,7 +49,7 @@ std::size_t checkedColumns(const ContactSheet& sheet) {
     const std::size_t columns = sheet.cells.front().size(), rows = sheet.cells.size();
     for (const auto& row : sheet.cells)
         requireThat(row.size() == columns,
-                    fmt::format("rows of {} and {} cells, expected as many in each", columns, row.size()));
+                    fmt::format("rows of {} and {} cells, expected the same number in each", columns, row.size()));
     requireThat(sheet.columns.empty() || sheet.columns.size() == columns,
                 fmt::format("got {} headings for {} columns", sheet.columns.size(), columns));
     requireThat(sheet.rows.empty() || sheet.rows.size() == rows,
@@ -162,7 +162,7 @@ class SheetWriter {
         if (std::max(width, height) > maximumSheetSide)
             throw InputError(
                 fmt::format("contact sheet: got {} rows of {} pictures, {:.0f}x{:.0f} pixels in all, allowed: {} a "
-                            "side; take fewer frames",
+                            "side; choose fewer frames",
                             sheet_.cells.size(), columns_, width, height, maximumSheetSide));
     }
 

@@ -126,8 +126,8 @@ void adoptOlderRows(StoredRuns& runs, std::vector<std::string>& problems) {
     }
     if (!renamed.empty())
         problems.push_back(
-            fmt::format("{} of {} runs are of an older build without the parameters {}: they are shown as runs with "
-                        "the defaults of these",
+            fmt::format("{} of {} runs are from an older build without the parameters {}: the report assumes "
+                        "their defaults",
                         renamed.size(), runs.size(), fmt::join(added, ", ")));
 }
 

@@ -45,8 +45,7 @@ void requireOwnPage(const std::filesystem::path& folder, std::string_view name) 
     const std::filesystem::path file = folder / name;
     std::error_code none;
     if (!std::filesystem::exists(std::filesystem::symlink_status(file, none))) return;
-    const std::string there =
-        files::wholeText(file, "a report of dustbench, to be replaced", files::limits::geometryBytes);
+    const std::string there = files::wholeText(file, "a dustbench report to replace", files::limits::geometryBytes);
     if (there.find(mark) == std::string::npos)
         throw InputError(
             fmt::format("'{}' exists and was not written by dustbench; move it away first", file.string()));

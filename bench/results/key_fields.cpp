@@ -29,7 +29,7 @@ KeyFields keyFields(const StoredRun& run) {
         const std::size_t equals = line.find('=');
         if (equals == std::string::npos)
             throw InputError(
-                fmt::format("run '{}': line '{}' of its provenance.key, expected name=value", run.runId, line));
+                fmt::format("run '{}': its provenance.key has the line '{}', expected name=value", run.runId, line));
         fields.emplace_back(line.substr(0, equals), line.substr(equals + 1));
     }
     return fields;

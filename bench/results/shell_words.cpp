@@ -50,7 +50,7 @@ class Splitter {
             if (escapes) ++at_;
             word_.push_back(line_[at_]);
         }
-        throw InputError("command line: a quote " + std::string(1, quote) + " is never closed");
+        throw InputError("command line: a quote " + std::string(1, quote) + " is not closed");
     }
     void endWord() {
         if (inWord_) words_.push_back(std::exchange(word_, {}));

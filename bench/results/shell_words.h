@@ -11,7 +11,7 @@ namespace dustbench::bench {
 [[nodiscard]] std::string shellQuoted(const std::string& text);
 
 /// The words of a line. Quotes and backslashes have their meaning in a shell; a backslash before a line break continues
-/// the line. Variables and other expansions are not expanded. Throws InputError for a quote that is never closed.
+/// the line. Variables and other expansions are not expanded. Throws InputError for a quote that is not closed.
 [[nodiscard]] std::vector<std::string> shellWords(std::string_view line);
 
 }  // namespace dustbench::bench

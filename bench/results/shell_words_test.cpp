@@ -36,7 +36,7 @@ TEST(ShellWords, AreReadAsAShellReadsThem) {
     EXPECT_THAT(shellWords("a'b c'd \"\" e\\ f"), ElementsAre("ab cd", "", "e f"));
     EXPECT_THAT(shellWords("run \\\n  --size 64x48"), ElementsAre("run", "--size", "64x48"));
     EXPECT_THAT(shellWords(R"("a\"b\\c\n" 'a\b')"), ElementsAre(R"(a"b\c\n)", R"(a\b)"));
-    EXPECT_THAT(inputError([] { (void)shellWords("a 'b"); }), HasSubstr("a quote ' is never closed"));
+    EXPECT_THAT(inputError([] { (void)shellWords("a 'b"); }), HasSubstr("a quote ' is not closed"));
 }
 
 }  // namespace

@@ -122,9 +122,9 @@ void requireMachine(const ChildOutcome& outcome, const ResourceLimits& limits) {
 
 std::string reasonOf(const ChildOutcome& outcome, const ResourceLimits& limits) {
     if (outcome.end == ChildOutcome::End::exited && outcome.code == aborted)
-        return fmt::format("needs more than {} MB of memory (memory_limit_mb)", limits.memoryMegabytes);
+        return fmt::format("exceeds the memory limit of {} MB (memory_limit_mb)", limits.memoryMegabytes);
     if (outcome.end == ChildOutcome::End::killedBySignal && outcome.code == SIGXCPU && limits.cpuSeconds > 0)
-        return fmt::format("needs more than {} s of processor time (cpu_limit_s)", limits.cpuSeconds);
+        return fmt::format("exceeds the limit of {} s of processor time (cpu_limit_s)", limits.cpuSeconds);
     return outcome.reason();
 }
 

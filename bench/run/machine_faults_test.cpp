@@ -160,7 +160,7 @@ TEST_F(MachineFaults, NoDescendantOutlivesItsRun) {
 TEST_F(MachineFaults, ARunThatNeedsMoreMemoryThanItMayFails) {
     const ExecutionResult result = run("echo 'dustbench: aborted: out of memory' >&2; exit 2", {500, 0});
     EXPECT_EQ(result.failed, 1u);
-    EXPECT_EQ(second().reason, "needs more than 500 MB of memory (memory_limit_mb)");
+    EXPECT_EQ(second().reason, "exceeds the memory limit of 500 MB (memory_limit_mb)");
 }
 
 TEST_F(MachineFaults, TheMemoryLimitIsTheProcesses) {
@@ -174,7 +174,7 @@ TEST_F(MachineFaults, TheMemoryLimitIsTheProcesses) {
 TEST_F(MachineFaults, ARunThatNeedsMoreProcessorTimeThanItMayFails) {
     const ExecutionResult result = run("while :; do :; done", {0, 1});
     EXPECT_EQ(result.failed, 1u);
-    EXPECT_EQ(second().reason, "needs more than 1 s of processor time (cpu_limit_s)");
+    EXPECT_EQ(second().reason, "exceeds the limit of 1 s of processor time (cpu_limit_s)");
 }
 
 TEST_F(MachineFaults, AFloodOfOutputIsRead) {

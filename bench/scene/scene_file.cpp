@@ -106,7 +106,7 @@ void readCameras(TomlReader& root, CameraSet& cameras) {
             camera.verticalFieldOfView = fieldOfView(table, camera.verticalFieldOfView);
             if (camera.eye == camera.target)
                 throw InputError(table.where("target") +
-                                 "key 'camera.fixed.target': expected another point than 'eye'");
+                                 "key 'camera.fixed.target': expected a point other than 'eye'");
         });
         readTable(kinds, "orbit", [&](TomlReader& table) {
             OrbitCamera& camera = cameras.orbit;

@@ -73,8 +73,8 @@ SolidKey readKey(TomlReader& table, const SolidKey& rest) {
 
 void requireReturn(const SolidKey& first, const SolidKey& last, const std::string& where) {
     const auto refuse = [&](const char* what) {
-        throw InputError(where + "key 'keys_repeat': the last key has another " + what +
-                         " than the first, expected the same (rotations: up to whole turns)");
+        throw InputError(where + "key 'keys_repeat': the last key has a different " + what +
+                         " from the first, expected the same (rotations: up to whole turns)");
     };
     if (first.position != last.position) refuse("position");
     for (int axis = 0; axis < 3; ++axis)

@@ -121,7 +121,7 @@ TEST(SolidTable, SaysInOneLineWhatIsWrong) {
     EXPECT_THAT(one.refusal("keys_repeat = true\n"), HasSubstr("got 0 keys, expected two or more"));
     EXPECT_THAT(one.refusal("keys_repeat = true\n" + key), HasSubstr("got 1 keys, expected two or more"));
     EXPECT_THAT(one.refusal("keys_repeat = true\n" + key + next + "position = [1, 0, 0]\n"),
-                HasSubstr("the last key has another position than the first"));
+                HasSubstr("the last key has a different position from the first"));
     EXPECT_THAT(one.refusal("keys_repeat = true\n" + key + next + "rotation_degrees = [0, 350, 0]\n"),
                 HasSubstr("another rotation"));
     EXPECT_NO_THROW((void)one.with("keys_repeat = true\n" + key + next + "rotation_degrees = [0, 720, 0]\n"));

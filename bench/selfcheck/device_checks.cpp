@@ -87,7 +87,7 @@ Check halfTargets(gpu::Device& device) {
         const double error = blendingError(blended(device, gpu::Format::rgba16F, layer), layer);
         worst = std::max(worst, error / static_cast<double>(value));
     }
-    return {"half-float targets", failedUnless(worst <= 0x1p-10), fmt::format("off by {:.2g} of a value", worst),
+    return {"half-float targets", failedUnless(worst <= 0x1p-10), fmt::format("relative error {:.2g}", worst),
             "at most 2^-10", "RGBA16F"};
 }
 
@@ -109,7 +109,7 @@ Check atomics(gpu::Device& device) {
     std::uint32_t wrong = 0;
     for (std::uint32_t i = 0; i < count; ++i) wrong += owners[i] != i ? 1 : 0;
     return {"atomics", failedUnless(wrong == 0 && given == count), fmt::format("{} of {} wrong", wrong, count),
-            "0 wrong", "each invocation draws a ticket of its own"};
+            "0 wrong", "each invocation takes a unique ticket"};
 }
 
 Check barriers(gpu::Device& device) {
@@ -140,8 +140,8 @@ Check barriers(gpu::Device& device) {
 
 Check wideIntegers(gpu::Device& device) {
     if (!device.offers("GL_ARB_gpu_shader_int64"))
-        return {"64-bit integers", Outcome::attention, "not offered", "GL_ARB_gpu_shader_int64",
-                "what needs them is skipped"};
+        return {"64-bit integers", Outcome::attention, "not supported", "GL_ARB_gpu_shader_int64",
+                "shaders that need them are skipped"};
     constexpr std::uint64_t a = 0x9e3779b97f4a7c15, b = 0xbf58476d1ce4e5b9;
     const auto words = [](std::uint64_t value) {
         return std::array{static_cast<std::uint32_t>(value), static_cast<std::uint32_t>(value >> 32)};

@@ -27,10 +27,10 @@ Check gpuClockCheck(const GpuClockReadings& readings) {
     Check check{
         "GPU clock", Outcome::ok,
         fmt::format("{} MHz before, {} under load, {} after", before->megahertz, during->megahertz, after->megahertz),
-        "not falling under load"};
+        "no fall under load"};
     if (!during->throttledBy.empty()) {
         check.outcome = Outcome::attention;
-        check.note = "held down by: " + during->throttledBy;
+        check.note = "limited by: " + during->throttledBy;
     } else if (during->megahertz < before->megahertz) {
         check.outcome = Outcome::attention;
         check.note = "the clock falls under load: times vary";

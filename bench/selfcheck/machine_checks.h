@@ -18,7 +18,7 @@ namespace dustbench::bench {
 struct GpuClockReadings {
     std::optional<GpuClockReading> before{}, during{}, after{};  ///< empty where the clock cannot be read
 };
-/// Needs attention where the clock under load is held down, or falls below the clock at rest.
+/// Needs attention where the clock under load is limited, or falls below the clock at rest.
 [[nodiscard]] Check gpuClockCheck(const GpuClockReadings& readings);
 
 }  // namespace dustbench::bench

@@ -60,7 +60,7 @@ PlannedPicture readPicture(files::TomlReader& table, ImageSize size) {
     }
     table.finish();
     if (std::ranges::find(methods(), spec.method, &MethodInfo::id) == methods().end()) {
-        picture.skip = "this build does not have the method " + spec.method;
+        picture.skip = "this build lacks the method " + spec.method;
         return picture;
     }
     if (picture.reference == Reference::variant) {

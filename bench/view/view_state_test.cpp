@@ -148,7 +148,7 @@ TEST(ViewState, SaysWhatIsWrongWithALine) {
     EXPECT_THAT(message(run + "-P particles"), HasSubstr("name=value"));
     EXPECT_THAT(message(run + "-P seed=1 -P seed=1"), HasSubstr("twice"));
     EXPECT_THAT(message(run + "--camera-path 0,1"), HasSubstr("expected 8"));
-    EXPECT_THAT(message(run + "'"), HasSubstr("never closed"));
+    EXPECT_THAT(message(run + "'"), HasSubstr("is not closed"));
     EXPECT_THAT(message("dustbench run --method bilbord"), HasSubstr("unknown method"));
 }
 

@@ -146,7 +146,7 @@ void Viewer::perform(Action action) {
             break;
         case Action::saveCameraPath:
             if (cameraKeys_.empty())
-                message_ = "camera path: no keys yet (K adds one)";
+                message_ = "camera path: no keys; press K to add one";
             else
                 save("camera_path.csv", CameraPath(cameraKeys_).csv());
             break;
@@ -161,7 +161,7 @@ void Viewer::perform(Action action) {
             break;
         case Action::exact:
             if (!session_.isExact(Half::b)) {
-                message_ = "ground truth: choose 'exact' as half B";
+                message_ = "ground truth: choose 'exact' as B";
                 break;
             }
             paused = exactAsked_ = true;
@@ -191,7 +191,7 @@ void Viewer::perform(Action action) {
             break;
         case Action::saveDrive:
             if (session_.recordedSteps() == 0)
-                message_ = "drive: nothing was driven by keyboard (set the drive to 'keyboard')";
+                message_ = "drive: nothing was recorded; set the drive to 'keyboard' and drive";
             else
                 save("drive.csv", session_.recordedDrive());
             break;
@@ -270,7 +270,7 @@ void Viewer::makeFrame(double secondsForPreroll) {
 
 /// Meanwhile only the progress is drawn, between two runs.
 void Viewer::measureShown() {
-    if (!measurement_) throw InputError("measure: no runs can be started from here");
+    if (!measurement_) throw InputError("measure: this program cannot start runs");
     const Suite suite = measurementOf(session_.state());
     isCosted_ = false;  // the window's share would include the measurement
     device_.finish();

@@ -251,7 +251,7 @@ TEST_F(Paced, ADroppedFileIsReadWithinTheLimits) {
     folder_.write("large", "");
     std::filesystem::resize_file(large, files::limits::textBytes + 1);
     for (const auto& [file, expected] :
-         {std::pair(pipe, "is a pipe"), std::pair(folder_.path(), "is a folder"), std::pair(large, "is too long"),
+         {std::pair(pipe, "is a pipe"), std::pair(folder_.path(), "is a folder"), std::pair(large, "is too large"),
           std::pair(folder_.path() / "none", "No such file")}) {
         viewer_->applyFile(file);
         EXPECT_THAT(viewer_->message(), HasSubstr(file.string() + ": "));

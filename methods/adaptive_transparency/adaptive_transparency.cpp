@@ -87,9 +87,8 @@ MethodInfo describe() {
         .choice("puff", Puff::surface, puffKinds,
                 "a puff as a surface at its centre's depth, as published, or as a volume cut by eye and scene, at the "
                 "point on the ray nearest to its centre")
-        .integer(
-            "nodes", 8, 2, 32, "nodes",
-            "nodes of a pixel's transmittance; a pixel with no more fragments than nodes is blended in exact order")
+        .integer("nodes", 8, 2, 32, "nodes",
+                 "nodes of a pixel's transmittance; pixels with at most this many fragments are blended in exact order")
         .real("reach", 3.5, 2, 6, "deviations",
               "radius of a puff in standard deviations; exp(-reach^2/2) of its depth is cut off");
     info.facts.push_back({"bits_per_pixel", "bit", FactOver::lastFrame,

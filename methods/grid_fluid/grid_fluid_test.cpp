@@ -320,7 +320,7 @@ TEST(GridFluid, RefusesWhatCannotFlow) {
     EXPECT_NE(refusal(fast, 2).find("allowed: at most 100"), std::string::npos);
     moment.scene.solids = {{"rock", std::make_shared<scene::Mesh>(ball(8))}};
     moment.scene.solidPoses = {{glm::mat4(placed({0, 0, 0}, 20)), {}, {}}};
-    EXPECT_NE(refusal(settingsOf("plume", {16, 16, 16}), 1).find("they fill the whole box"), std::string::npos);
+    EXPECT_NE(refusal(settingsOf("plume", {16, 16, 16}), 1).find("the whole box is solid"), std::string::npos);
 }
 
 TEST(Emitters, SwingAsASineWithinTheirChance) {

@@ -143,7 +143,7 @@ MethodInfo describe() {
                 "a puff as a surface at its centre's depth, as published, or as a volume cut by eye and scene, at the "
                 "point on the ray nearest to its centre")
         .integer("fragments_per_pixel", 32, 1, 4096, "fragments",
-                 "mean number of fragments per pixel that the lists have room for; a picture with more is an error")
+                 "capacity of the lists, in fragments per pixel on average; a picture that needs more is an error")
         .real("reach", 3.5, 2, 6, "deviations",
               "half-side of a puff's quad in standard deviations; exp(-reach^2/2) of its depth is cut off");
     info.facts.push_back({"bits_per_pixel", "bit", FactOver::lastFrame,

@@ -35,7 +35,7 @@ constexpr std::array<Figures, 12> figures{{
 const Figures& figuresOf(const Kind& kind) {
     for (const Figures& one : figures)
         if (one.kind == kind) return one;
-    throw std::logic_error("no figures for this number of moments");
+    throw std::logic_error("no bias is published for this number of moments");
 }
 
 constexpr std::array<double, 4> odd4{1.5, -2, root3 / 2, -2 * root3 / 9};

@@ -87,7 +87,7 @@ MethodInfo describe() {
                 "a puff as a surface at its centre's depth, as published, or as a volume cut by eye and scene, at the "
                 "point on the ray nearest to its centre")
         .integer("layers", 4, 1, 16, "layers",
-                 "layers per pixel; a pixel with no more fragments than layers is blended in exact order")
+                 "layers per pixel; pixels with at most this many fragments are blended in exact order")
         .real("reach", 3.5, 2, 6, "deviations",
               "radius of a puff in standard deviations; exp(-reach^2/2) of its depth is cut off");
     info.facts.push_back({"bits_per_pixel", "bit", FactOver::lastFrame,

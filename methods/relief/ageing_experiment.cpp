@@ -52,7 +52,7 @@ void addExponents(const std::string& search, const std::vector<CostCell>& cells,
         findings.push_back(meanOf(search + name, values));
         if (skipped > 0)
             findings.back().note =
-                fmt::format("{} of {} cells were skipped: more than {:.0e} tests", skipped, cells.size(), maximumTests);
+                fmt::format("{} of {} cases were skipped: more than {:.0e} tests", skipped, cells.size(), maximumTests);
     }
 }
 

@@ -146,7 +146,7 @@ std::optional<double> VoxelShape::silhouetteOverlap(const scene::View& view) con
     const Shape& shape = shapes_.front().shape();
     if (shapes_.size() > 1 || (shape.source != Source::mesh && shape.source != Source::vehicle)) return std::nullopt;
     gpu::Texture nothing =
-        gpu::Texture::make2D(*device_, "depth of nothing", gpu::Format::depth32F, view.width, view.height);
+        gpu::Texture::make2D(*device_, "empty depth", gpu::Format::depth32F, view.width, view.height);
     const std::vector<float> farthest(static_cast<std::size_t>(view.width * view.height), 0.0f);
     nothing.write(std::span<const float>(farthest));
     gpu::Layer layer(*device_, nothing);

@@ -69,7 +69,7 @@ const qualityChart = (() => {
         setScale(spec, 'legendText', { domain: names, range: legendLines(names, chart.width) });
         setScale(spec, 'shape', { domain: names, range: styles.map(style => style.shape) });
         const hint = info.better === 'high' ? 'Higher' : 'Lower';
-        const rings = front.length ? 'Ringed and joined: the Pareto front. Compared with each of these, every other setting costs more or has a larger error, by intervals that do not overlap.'
+        const rings = front.length ? 'Rings and line: the Pareto front. Compared with each of these, every other setting costs more or has a larger error, by intervals that do not overlap.'
             : compared.length ? 'No setting is ringed, because the intervals of the leading settings overlap.' : '';
         return { spec, notes: [`${hint} and further left is better.`, ...(rings ? [rings] : [])], table: tableOf(report, experiment, cells, [metric, against]), state: { metric, against, xLog, yLog } };
     };

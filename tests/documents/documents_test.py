@@ -1,5 +1,5 @@
-"""Checks the documents: links and paths exist, the README is short, each guide shows one command and its duration on its
-first screen, and the README's table is that of the sample report.
+"""Checks the documents: links and paths exist, the README is short, each guide says what it is for and shows one command and its
+duration on its first screen, and the README's table is that of the sample report.
 
     documents_test.py
 """
@@ -104,6 +104,12 @@ class Documents(unittest.TestCase):
             with self.subTest(guide=guide.name):
                 self.assertRegex(screen, r"(?m)^```sh$")
                 self.assertRegex(screen, r"\d (s|minutes?)\b")
+
+    def test_each_guide_begins_with_its_purpose(self):
+        for guide in GUIDES:
+            with self.subTest(guide=guide.name):
+                first = guide.read_text().split("\n\n")[1]
+                self.assertFalse(first.startswith(("```", "<!--", "|", "![", "- ")), "a sentence must say what the guide is for before the first command")
 
     def test_each_guide_is_in_the_list_of_guides(self):
         listed = (ROOT / "reports" / "guide" / "README.md").read_text()

@@ -16,7 +16,7 @@ pictures::Image resampled(const pictures::Image& image, int width, int height) {
     const std::string reason =
         pictures::pictureLibrary().resize({&image.pixels[0].x, image.pixels.size() * 4}, image.width, image.height,
                                           {&result.pixels[0].x, result.pixels.size() * 4}, width, height);
-    if (!reason.empty()) throw std::runtime_error("cannot resample an image: " + reason);
+    if (!reason.empty()) throw std::runtime_error("an image cannot be resampled: " + reason);
     return result;
 }
 

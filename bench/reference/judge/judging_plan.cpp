@@ -38,7 +38,7 @@ std::string JudgingPlan::referenceText() const {
 void requireMomentsWithinRun(const JudgingPlan& plan, std::int64_t frames) {
     if (!plan.moments) return;
     if (plan.moments->count() < minimumMoments)
-        throw InputError(fmt::format("metric frames: got {} moments ({}), allowed: {} or more", plan.moments->count(),
+        throw InputError(fmt::format("metric frames: got {} frames ({}), allowed: {} or more", plan.moments->count(),
                                      plan.moments->text(), minimumMoments));
     if (plan.moments->last >= frames)
         throw InputError(fmt::format("metric frames: frame {} is beyond the run's end, allowed: frames 0..{}",

@@ -9,7 +9,7 @@ namespace dustbench::bench {
 namespace {
 
 constexpr Choices<Agreement> agreementTexts{{"agree", Agreement::agree},
-                                            {"agree, by another factor", Agreement::factor},
+                                            {"agree, by different factors", Agreement::factor},
                                             {"differ", Agreement::differ},
                                             {"open", Agreement::open},
                                             {"one machine only", Agreement::alone}};

@@ -19,7 +19,7 @@ enum class Agreement {
     open,    ///< not resolved on all machines, but without contradiction
     alone    ///< measured on fewer than two machines
 };
-/// `agree`, `agree, by another factor` …
+/// `agree`, `agree, by different factors` …
 [[nodiscard]] std::string_view agreementText(Agreement agreement);
 
 /// Machines without the ratio do not count.

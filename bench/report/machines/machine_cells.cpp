@@ -62,7 +62,7 @@ MachineCells cellsOf(const MachineSet& set) {
             add(cell.sides[side], *run);
         }
         if (copied > 0)
-            result.unplaced.push_back(fmt::format("{}: {} of {} runs are copies from another folder and left out",
+            result.unplaced.push_back(fmt::format("{}: {} of {} runs were copied from another folder and are left out",
                                                   set.sides[side].label, copied, set.sides[side].runs.size()));
         if (unplaced > 0)
             result.unplaced.push_back(fmt::format("{}: {} of {} runs do not record their settings (provenance.key)",

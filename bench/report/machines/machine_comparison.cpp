@@ -23,7 +23,7 @@ void requireOtherFolder(const fs::path& file, const MachineSet& set) {
         std::error_code none;
         if (fs::equivalent(file.parent_path(), data.folder, none) && file.filename() == "index.html")
             throw InputError(
-                fmt::format("--out: got '{}', which is the place of that folder's own report; expected another "
+                fmt::format("--out: got '{}', where that folder's own report is; expected another "
                             "folder or file",
                             data.folder));
     }

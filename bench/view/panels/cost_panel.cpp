@@ -101,7 +101,7 @@ void showSwatch(ImU32 colour) {
 /// Table of the median of every stage that either half has. Its colours are the legend of the chart.
 void showStages(const Viewer& viewer, const std::vector<std::size_t>& halves) {
     if (!beginTable("stages", 3)) return;
-    for (const char* title : {"median of", "A ms", "B ms"}) {
+    for (const char* title : {"median", "A ms", "B ms"}) {
         ImGui::TableNextColumn();
         ImGui::TextDisabled("%s", title);
     }
@@ -129,16 +129,16 @@ void showTimes(const Viewer& viewer, WidgetMap& widgets) {
     showPercentiles(viewer);
     const double scaleMs = stackScaleMs(viewer);
     for (const std::size_t half : halves) {
-        showRemark(fmt::format("{}, stacked: scale {:.1f} ms, slowest frame {:.1f} ms{}", half == 0 ? "A" : "B",
+        showRemark(fmt::format("{}: stages stacked, scale {:.1f} ms, slowest frame {:.1f} ms{}", half == 0 ? "A" : "B",
                                scaleMs, maximum(totalsOf(viewer, half)),
                                viewer.session().isSinceStart(half == 0 ? Half::a : Half::b)
                                    ? ""
-                                   : "; joined later, Restart shows it as in a run"));
+                                   : "; started later, press Restart to see it as in a run"));
         showStack(viewer, half, scaleMs);
         widgets.note(half == 0 ? "Costs/stack of A" : "Costs/stack of B");
     }
     showStages(viewer, halves);
-    showRemark(fmt::format("{} frames of this window, not a measurement", viewer.costs().size()));
+    showRemark(fmt::format("last {} frames of this window, not a measurement", viewer.costs().size()));
 }
 
 /// `Costs: A 3.1 ms, B 5.2 ms`: the title, which is visible while the section is closed.
@@ -151,9 +151,9 @@ std::string titleOf(const Viewer& viewer) {
     return title;
 }
 
-void showMemoryOf(const MethodHost& host, const char* title) {
-    if (!beginTable(title, 3)) return;
-    showRow({title, "CPU MB", "GPU MB"});
+void showMemoryOf(const MethodHost& host, const char* half) {
+    if (!beginTable((std::string("memory of ") + half).c_str(), 3)) return;
+    showRow({half, "CPU MB", "GPU MB"});
     for (const MemoryUse& use : host.method().memory()) showRow({use.structure, inMegabytes(use.cpuBytes), ""});
     for (const auto& [structure, bytes] : host.gpuLedger().entries()) showRow({structure, "", inMegabytes(bytes)});
     showRow({"total", inMegabytes(static_cast<std::size_t>(host.cpuBytes())),
@@ -182,8 +182,7 @@ void showCosts(const Viewer& viewer, WidgetMap& widgets) {
     if (isOpen(titleOf(viewer), "Costs", widgets)) showTimes(viewer, widgets);
     if (!isOpen("Memory", "Memory", widgets)) return;
     for (const Half half : {Half::a, Half::b})
-        if (viewer.session().hasHost(half))
-            showMemoryOf(viewer.session().host(half), half == Half::a ? "of A" : "of B");
+        if (viewer.session().hasHost(half)) showMemoryOf(viewer.session().host(half), half == Half::a ? "A" : "B");
 }
 
 }  // namespace dustbench::bench

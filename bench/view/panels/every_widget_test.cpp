@@ -73,16 +73,16 @@ TEST_F(EveryWidget, EverySliderGoesToBothEnds) {
     open(methods().front().id, methods().front().id);
     const auto value = [&](const std::string& slider) {
         const SplitSettings& split = viewer_->split;
-        if (slider == "exposure") return split.stops;
-        if (slider == "zoom") return 1 / split.extent.x;
-        return slider == "gain" ? split.gain : split.divider;
+        if (slider == "Exposure") return split.stops;
+        if (slider == "Zoom") return 1 / split.extent.x;
+        return slider == "Gain" ? split.gain : split.divider;
     };
     struct Slider {
         const char *view, *name;
         float minimum, maximum;
     };
-    for (const Slider& slider : {Slider{"wipe", "exposure", -8, 8}, Slider{"wipe", "divider", 0, 1},
-                                 Slider{"difference", "gain", 1, 64}, Slider{"wipe", "zoom", 1, 9}}) {
+    for (const Slider& slider : {Slider{"Wipe", "Exposure", -8, 8}, Slider{"Wipe", "Divider", 0, 1},
+                                 Slider{"Difference", "Gain", 1, 64}, Slider{"Wipe", "Zoom", 1, 9}}) {
         click(slider.view);
         slide(slider.name, 1);
         EXPECT_NEAR(value(slider.name), slider.maximum, 0.02f * slider.maximum) << slider.name;
@@ -127,18 +127,18 @@ TEST_F(EveryWidget, EveryButtonActs) {
     click("Restart");
     EXPECT_LT(viewer_->session().frame(), 0);
     viewer_->advance(1e9);
-    click("volume");
+    click("Save volume");
     EXPECT_NE(viewer_->message(), "");
-    click("Measure this");
+    click("Measure");
     viewer_->advance();
-    EXPECT_THAT(viewer_->message(), HasSubstr("no runs can be started"));  // nothing was given to start them
-    click("keep 15 frames per second");
+    EXPECT_THAT(viewer_->message(), HasSubstr("cannot start runs"));  // nothing was given to start them
+    click("Lower the resolution to keep 15 fps");
     EXPECT_TRUE(viewer_->keepsPace);
-    click("keep 15 frames per second");
+    click("Lower the resolution to keep 15 fps");
     EXPECT_FALSE(viewer_->keepsPace);
     click("Help");
     frames(2);
-    EXPECT_TRUE(panels_->widgets().all().contains("text size"));
+    EXPECT_TRUE(panels_->widgets().all().contains("Text size"));
 }
 
 TEST_F(EveryWidget, TheTextGrowsAsChosenAndBack) {
@@ -146,8 +146,8 @@ TEST_F(EveryWidget, TheTextGrowsAsChosenAndBack) {
     const pictures::Image before = picture();
     const float small = at("A").maximum.y - at("A").minimum.y;
     click("Help");
-    click("text size");
-    click("text size/200 %");
+    click("Text size");
+    click("Text size/200 %");
     EXPECT_EQ(panels_->textScale(), 2);
     frames(2);
     EXPECT_NEAR(at("A").maximum.y - at("A").minimum.y, 2 * small, 2);

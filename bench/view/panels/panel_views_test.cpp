@@ -22,9 +22,9 @@ TEST_F(Panels, TheExactPictureIsChosenFromTheListAndHasItsNumbers) {
     for (int n = 0; n < 2; ++n) viewer_->advance();
     frames(2);
     ASSERT_TRUE(viewer_->session().isCurrent(Half::b));
-    click("exact every frame");
+    click("Ground truth in every frame");
     EXPECT_TRUE(viewer_->exactEveryFrame);
-    for (const char* view : {"side by side", "FLIP", "difference", "only B", "wipe"}) {
+    for (const char* view : {"Side by side", "FLIP", "Difference", "B only", "Wipe"}) {
         const pictures::Image before = picture();
         click(view);
         viewer_->advance();
@@ -39,15 +39,15 @@ TEST_F(Panels, ChannelExposureAndZoomAreAtHand) {
     open(methods().front().id, methods().front().id);
     for (const auto& [word, channel] : channelChoices.all()) {
         if (channel == Channel::picture) continue;
-        click("channel");
-        click("channel/" + std::string(word));
+        click("Channel");
+        click("Channel/" + std::string(word));
         EXPECT_EQ(viewer_->split.channel, channel);
         viewer_->advance();
         frames(2);
     }
-    slide("exposure", 1);
+    slide("Exposure", 1);
     EXPECT_GT(viewer_->split.stops, 7);
-    slide("zoom", 1);
+    slide("Zoom", 1);
     EXPECT_LT(viewer_->split.extent.x, 0.2f);
     EXPECT_GT(viewer_->split.origin.x, 0.3f);
 }
@@ -104,12 +104,12 @@ TEST_F(Panels, CostsAreStackedByStageAndMemoryByStructure) {
 
 TEST_F(Panels, SpeedAndDrawingAreAtHand) {
     open(methods().front().id, "");
-    click("speed");
-    click("speed/1/4");
+    click("Speed");
+    click("Speed/1/4");
     EXPECT_EQ(viewer_->slowness, 4);
-    click("draw");
+    click("Drawing");
     EXPECT_TRUE(viewer_->drawingPaused);
-    click("draw");
+    click("Drawing");
     EXPECT_FALSE(viewer_->drawingPaused);
 }
 

@@ -61,7 +61,7 @@ std::optional<ParameterEdit> ParameterPanel::show(const ParameterValues& values,
         showHelp(parameter);
         if (isSet) {
             ImGui::SameLine();
-            if (ImGui::SmallButton("reset")) result = ParameterEdit{parameter.name, std::nullopt};
+            if (ImGui::SmallButton("Reset")) result = ParameterEdit{parameter.name, std::nullopt};
             widgets.note(id_ + "/" + parameter.name + "/reset");
         }
         ImGui::PopID();

@@ -16,16 +16,17 @@ std::string number(const std::optional<double>& value, int digits) {
 }
 
 std::string faultsText(const char* half, const LayerFaults& faults) {
-    std::string text = fmt::format("{}: {} not finite, {} negative, {} with a wrong alpha", half, faults.notFinite,
+    std::string text = fmt::format("{}: {} not finite, {} negative, {} with alpha outside 0..1", half, faults.notFinite,
                                    faults.negative, faults.alpha);
-    if (faults.first) text += fmt::format("; first at {}, {}", faults.first->x, faults.first->y);
+    if (faults.first) text += fmt::format("; the first at {}, {}", faults.first->x, faults.first->y);
     return text;
 }
 
 std::string labelOf(Shown shown, std::string_view word) {
-    if (shown == Shown::a || shown == Shown::b) return "only " + std::string(word);
-    if (shown == Shown::beside) return "side by side";
-    return shown == Shown::flip ? "FLIP" : std::string(word);
+    if (shown == Shown::a || shown == Shown::b) return shown == Shown::a ? "A only" : "B only";
+    if (shown == Shown::beside) return "Side by side";
+    if (shown == Shown::flip) return "FLIP";
+    return shown == Shown::wipe ? "Wipe" : "Difference";
 }
 
 /// The metrics of this frame, named as in reports/METRICS.md.
@@ -37,7 +38,7 @@ void showNumbers(const MomentMetrics& metrics) {
             showText(*cell);
         }
     };
-    row("A against exact", "picture", "within mask");
+    row("A vs. ground truth", "picture", "in the mask");
     const bool identical = metrics.identical.value_or(false);
     row("psnr_db", identical ? "identical" : number(metrics.psnrDb, 2), number(metrics.psnrMaskDb, 2));
     row("ssim", number(metrics.ssim, 4), number(metrics.ssimMask, 4));
@@ -83,7 +84,7 @@ void PicturePanel::showStamp(Viewer& viewer, const PanelInput& input) const {
     const glm::ivec3 bytes = glm::ivec3(glm::round(255.0f * value.display));
     const float below = ImGui::GetFontSize() * 1.6f;
     showCaption({picture_.minimum.x, picture_.maximum.y - below},
-                fmt::format("{} at {}, {}: light {:.4f} {:.4f} {:.4f}, display {} {} {}, alpha {:.4f}",
+                fmt::format("{} at {}, {}: linear {:.4f} {:.4f} {:.4f}, sRGB {} {} {}, alpha {:.4f}",
                             value.half == Half::a ? "A" : "B", value.x, value.y, value.light.r, value.light.g,
                             value.light.b, bytes.r, bytes.g, bytes.b, value.alpha));
 }
@@ -116,9 +117,9 @@ void PicturePanel::useMouse(Viewer& viewer, const PanelInput& input) {
 void PicturePanel::showChoices(Viewer& viewer, WidgetMap& widgets) {
     if (viewer.session().has(Half::b)) showHalves(viewer, widgets);
     showChannel(viewer, widgets);
-    showSlider("exposure", viewer.split.stops, -8, 8, "%+.1f stops", widgets);
+    showSlider("Exposure", viewer.split.stops, -8, 8, "%+.1f stops", widgets);
     float zoom = 1 / viewer.split.extent.x;
-    if (showSlider("zoom", zoom, 1, 64, "%.1f", widgets, true))
+    if (showSlider("Zoom", zoom, 1, 64, "%.1f", widgets, true))
         viewer.zoom({0.5f, 0.5f}, static_cast<double>(zoom * viewer.split.extent.x));
     if (viewer.session().isExact(Half::b)) showExact(viewer, widgets);
 }
@@ -132,42 +133,42 @@ void PicturePanel::showHalves(Viewer& viewer, WidgetMap& widgets) {
         if (ImGui::RadioButton(label.c_str(), viewer.split.shown == shown)) viewer.split.shown = shown;
         widgets.note(label);
     }
-    if (viewer.split.shown == Shown::difference) showSlider("gain", viewer.split.gain, 1, 64, "%.1f", widgets, true);
-    if (viewer.split.shown == Shown::wipe) showSlider("divider", viewer.split.divider, 0, 1, "%.2f", widgets);
+    if (viewer.split.shown == Shown::difference) showSlider("Gain", viewer.split.gain, 1, 64, "%.1f", widgets, true);
+    if (viewer.split.shown == Shown::wipe) showSlider("Divider", viewer.split.divider, 0, 1, "%.2f", widgets);
     if (const auto mean = viewer.maps().flipMean(); mean && viewer.settingsNow().shown == Shown::flip)
-        showRemark(fmt::format("FLIP: mean {:.4f}, map from 0 (black) to 1 (yellow) in {:.2f} s", *mean,
+        showRemark(fmt::format("FLIP: mean {:.4f}; black: 0, yellow: 1; computed in {:.2f} s", *mean,
                                viewer.maps().flipSeconds()));
 }
 
 void PicturePanel::showChannel(Viewer& viewer, WidgetMap& widgets) {
     Channel& channel = viewer.split.channel;
     if (const auto word =
-            showList("channel", std::string(channelChoices.wordOf(channel)), channelChoices.words(), widgets))
+            showList("Channel", std::string(channelChoices.wordOf(channel)), channelChoices.words(), widgets))
         channel = channelChoices.valueOf(*word);
-    if (channel == Channel::alpha) showRemark("alpha of the layer: 0 black, 1 white");
-    if (channel == Channel::depth) showRemark("depth of the opaque scene: 1 m white, 1 km and beyond black");
+    if (channel == Channel::alpha) showRemark("alpha of the layer; black: 0, white: 1");
+    if (channel == Channel::depth) showRemark("depth of the opaque scene; white: 1 m, black: 1 km or more");
     if (channel == Channel::overdraw)
-        showRemark(fmt::format("primitives over a pixel: 0 black, {:.0f} yellow", viewer.maps().overdrawLimit()));
-    if (channel == Channel::outlines) showRemark("quads yellow, voxels blue, brighter where several overlap");
+        showRemark(fmt::format("primitives per pixel; black: 0, yellow: {:.0f}", viewer.maps().overdrawLimit()));
+    if (channel == Channel::outlines) showRemark("yellow: quads, blue: voxels; brighter where several overlap");
     if (channel != Channel::faults) return;
-    showRemark("not finite magenta, negative cyan, alpha outside 0..1 yellow");
+    showRemark("magenta: not finite, cyan: negative, yellow: alpha outside 0..1");
     for (const Half half : {Half::a, Half::b})
         if (viewer.session().isCurrent(half)) showText(faultsText(half == Half::a ? "A" : "B", viewer.faults(half)));
 }
 
 void PicturePanel::showExact(Viewer& viewer, WidgetMap& widgets) {
-    showSwitch("exact every frame", viewer.exactEveryFrame, widgets);
+    showSwitch("Ground truth in every frame", viewer.exactEveryFrame, widgets);
     if (!viewer.session().isJudged()) {
         showRemark(viewer.session().isCurrent(Half::b)
-                       ? "exact_tiles draws B, the ground truth to within 1e-5. The ground truth with metrics is drawn "
-                         "when nothing moves: Space pauses, E pauses and draws it."
-                       : "The ground truth is drawn when nothing moves: Space pauses, E pauses and draws it. Until "
+                       ? "B is drawn by exact_tiles, which is within 1e-5 of the ground truth. Pause (Space or E) to "
+                         "compute the ground truth and the metrics."
+                       : "The ground truth is computed only while nothing moves. Pause (Space or E) to see it; until "
                          "then, only A is shown.");
         return;
     }
     const ExactHalf& exact = viewer.session().exact();
     exact.whyNotJudged().empty() ? showNumbers(exact.judged().metrics) : showRemark(exact.whyNotJudged());
-    showRemark(fmt::format("ground truth and metrics of frame {} in {:.2f} s", viewer.session().drawnFrame(),
+    showRemark(fmt::format("ground truth and metrics of frame {}: computed in {:.2f} s", viewer.session().drawnFrame(),
                            exact.seconds()));
 }
 

@@ -116,12 +116,12 @@ void ViewerPanels::showHalf(Viewer& viewer, Half half) {
 void ViewerPanels::showPace(Viewer& viewer) {
     std::vector<std::string> words(slownesses.size());
     std::ranges::transform(slownesses, words.begin(), speedText);
-    if (const auto chosen = showList("speed", speedText(viewer.slowness), words, widgets_))
+    if (const auto chosen = showList("Speed", speedText(viewer.slowness), words, widgets_))
         viewer.slowness = slownesses.at(static_cast<std::size_t>(std::ranges::find(words, *chosen) - words.begin()));
     ImGui::SameLine();
     bool isDrawn = !viewer.drawingPaused;
-    if (showSwitch("draw", isDrawn, widgets_)) viewer.drawingPaused = !isDrawn;
-    showSwitch("keep 15 frames per second", viewer.keepsPace, widgets_);
+    if (showSwitch("Drawing", isDrawn, widgets_)) viewer.drawingPaused = !isDrawn;
+    showSwitch("Lower the resolution to keep 15 fps", viewer.keepsPace, widgets_);
     if (const std::string remark = viewer.drawnRemark(); !remark.empty()) showRemark(remark);
 }
 
@@ -131,7 +131,7 @@ void ViewerPanels::showTime(Viewer& viewer) {
         if (ImGui::Button(label)) viewer.act(action);
         widgets_.note(label);
     };
-    button(viewer.paused ? "Go on" : "Pause", Action::pause);
+    button(viewer.paused ? "Resume" : "Pause", Action::pause);
     ImGui::SameLine();
     button("Step", Action::step);
     ImGui::SameLine();
@@ -141,7 +141,7 @@ void ViewerPanels::showTime(Viewer& viewer) {
     showPace(viewer);
     const double seconds = session.world().state().timeSeconds;
     showText(session.stepsToGo() > 0
-                 ? fmt::format("preroll: {} steps to go", session.stepsToGo())
+                 ? fmt::format("preroll: {} steps left", session.stepsToGo())
                  : fmt::format("frame {}, {:.2f} s, {:.1f} m/s, {} particles", session.frame(), seconds,
                                session.world().state().vehicle.speed, session.world().dust().size()));
     ViewState state = viewer.state();
@@ -154,12 +154,12 @@ void ViewerPanels::showTime(Viewer& viewer) {
     };
     static const std::vector<std::string> scenes = files::listData("scenes", ".toml");
     static const std::vector<std::string> drives =
-        with("(the scene's)", with(keyboardDrive, files::listData("drives", ".csv")));
-    change("scene", state.scene, "", scenes);
-    change("drive", state.drive, "(the scene's)", drives);
+        with("(scene default)", with(keyboardDrive, files::listData("drives", ".csv")));
+    change("Scene", state.scene, "", scenes);
+    change("Drive", state.drive, "(scene default)", drives);
     std::string camera =
-        state.cameraPath.empty() ? valuesOf(worldParameters(), state.world).choice("camera") : "by hand";
-    if (const auto chosen = showList("camera", camera, cameraKinds.words(), widgets_)) {
+        state.cameraPath.empty() ? valuesOf(worldParameters(), state.world).choice("camera") : "custom";
+    if (const auto chosen = showList("Camera", camera, cameraKinds.words(), widgets_)) {
         state.world["camera"] = *chosen;
         state.cameraPath.clear();
         viewer.apply(state);
@@ -181,7 +181,7 @@ void ViewerPanels::showParameters(Viewer& viewer) {
     section("Parameters of A", ofA_, findMethod(state.a.method).parameters, state.a.parameters);
     if (viewer.session().hasHost(Half::b))
         section("Parameters of B", ofB_, findMethod(state.b->method).parameters, state.b->parameters);
-    section("World (a change restarts it)", ofWorld_, worldParameters(), state.world);
+    section("World (changes restart it)", ofWorld_, worldParameters(), state.world);
 }
 
 void ViewerPanels::showFiles(Viewer& viewer) {
@@ -193,11 +193,11 @@ void ViewerPanels::showFiles(Viewer& viewer) {
     ImGui::SameLine();
     if (ImGui::Button("Save picture")) viewer.act(Action::savePicture);
     widgets_.note("Save picture");
+    if (ImGui::Button("Save volume")) viewer.act(Action::saveVolume);
+    widgets_.note("Save volume");
     ImGui::SameLine();
-    if (ImGui::Button("volume")) viewer.act(Action::saveVolume);
-    widgets_.note("volume");
-    if (ImGui::Button("Measure this")) viewer.act(Action::measure);
-    widgets_.note("Measure this");
+    if (ImGui::Button("Measure")) viewer.act(Action::measure);
+    widgets_.note("Measure");
     ImGui::SameLine();
     ImGui::TextDisabled("%d runs each, takes minutes", measuredRepetitions);
     for (const std::string& sentence : viewer.measured()) ImGui::TextWrapped("%s", sentence.c_str());
@@ -236,15 +236,15 @@ void ViewerPanels::showHelp() {
     }
     ImGui::Separator();
     showText(
-        "mouse: left moves the divider, right turns the camera, middle shifts it, the wheel moves it closer;\n"
-        "with Ctrl, the wheel enlarges the picture and left moves it");
+        "Mouse: drag with the left button to move the divider, right to rotate the camera, middle to pan it;\n"
+        "the wheel moves the camera closer. With Ctrl, the wheel zooms the picture and the left button pans it.");
     ImGui::End();
 }
 
 void ViewerPanels::showTextSize() {
     std::vector<std::string> words;
     for (const double scale : textScales) words.push_back(percentText(scale));
-    if (const auto chosen = showList("text size", percentText(wantedScale_), words, widgets_))
+    if (const auto chosen = showList("Text size", percentText(wantedScale_), words, widgets_))
         wantedScale_ = textScales.at(static_cast<std::size_t>(std::ranges::find(words, *chosen) - words.begin()));
 }
 

@@ -20,7 +20,7 @@ TEST_F(Panels, AreNotEmptyAndHide) {
     const double shown = brightShare(picture(), 0, 300);
     EXPECT_GT(shown, 0.02);
     EXPECT_LT(shown, 0.4);
-    for (const char* widget : {"A", "B", "wipe", "Go on", "Restart", "camera", "Copy command", "world/particles"})
+    for (const char* widget : {"A", "B", "Wipe", "Resume", "Restart", "Camera", "Copy command", "world/particles"})
         EXPECT_TRUE(panels_->widgets().all().contains(widget)) << widget;
     viewer_->press(Key::h, false);
     frames(2);
@@ -90,19 +90,19 @@ TEST_F(Panels, ParametersOfBAndOfTheWorldAreTheirOwn) {
 
 TEST_F(Panels, ButtonsDoWhatTheySay) {
     open(methods().front().id, methods().front().id);
-    click("Go on");
+    click("Resume");
     EXPECT_FALSE(viewer_->paused);
     click("Pause");
     EXPECT_TRUE(viewer_->paused);
     const std::int64_t frame = viewer_->session().frame();
     click("Step");
     EXPECT_EQ(viewer_->session().frame(), frame + 1);
-    click("difference");
+    click("Difference");
     EXPECT_EQ(viewer_->split.shown, Shown::difference);
-    click("only B");
+    click("B only");
     EXPECT_EQ(viewer_->split.shown, Shown::b);
-    click("wipe");
-    slide("divider", 1);
+    click("Wipe");
+    slide("Divider", 1);
     EXPECT_GT(viewer_->split.divider, 0.9f);
     click("Help");
     EXPECT_TRUE(viewer_->showsHelp);
@@ -122,7 +122,7 @@ TEST_F(Panels, KeysWalkThroughThePanelOnlyWhenAsked) {
             frames(2);
         }
     };
-    click("Go on");
+    click("Resume");
     click("Pause");  // the panel has the focus
     const pictures::Image before = picture();
     for (const Key key : {Key::down, Key::down, Key::up}) tap(key);

@@ -234,7 +234,7 @@ void DemoSolver::requireNumbers() const {
 }
 
 void DemoSolver::scroll(glm::ivec3) {
-    throw std::logic_error("the box of the demo stands still");
+    throw std::logic_error("the demo's box cannot move");
 }
 
 void DemoSolver::gather(flow::Lane lane, std::span<float> to) const {
@@ -246,7 +246,7 @@ void DemoSolver::gather(flow::Lane lane, std::span<float> to) const {
 }
 
 void DemoSolver::addDensity(std::span<const flow::AddedDensity>) {
-    throw std::logic_error("the box of the demo stands still");
+    throw std::logic_error("the demo's box cannot move");
 }
 
 void DemoSolver::gather(flow::Lane, const gpu::Texture&) const {

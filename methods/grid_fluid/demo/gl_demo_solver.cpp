@@ -224,7 +224,7 @@ float GlDemoSolver::divergencePerStep() const {
 }
 
 void GlDemoSolver::scroll(glm::ivec3) {
-    throw std::logic_error("the box of the demo stands still");
+    throw std::logic_error("the demo's box cannot move");
 }
 
 void GlDemoSolver::gather(flow::Lane lane, std::span<float> to) const {
@@ -238,7 +238,7 @@ void GlDemoSolver::gather(flow::Lane lane, std::span<float> to) const {
 }
 
 void GlDemoSolver::addDensity(std::span<const flow::AddedDensity>) {
-    throw std::logic_error("the box of the demo stands still");
+    throw std::logic_error("the demo's box cannot move");
 }
 
 void GlDemoSolver::gather(flow::Lane lane, const gpu::Texture& to) const {

@@ -391,7 +391,10 @@ TEST(FluidSolver, RefusesBadInputInOneLine) {
     Plume plume({8, 8, 8});
     plume.start();
     const std::vector<std::uint8_t> full(512, 1), tooFew(10, 0);
-    EXPECT_NE(inputError([&] { plume.solver->setSolids({full, {}}); }).find("fill the whole box"), std::string::npos);
+    EXPECT_NE(inputError([&] {
+                  plume.solver->setSolids({full, {}});
+              }).find("the whole box is solid"),
+              std::string::npos);
     EXPECT_NE(inputError([&] { plume.solver->setSolids({tooFew, {}}); }).find("got 10 cells"), std::string::npos);
     EXPECT_NE(inputError([&] { plume.solver->step(0, {}); }).find("step"), std::string::npos);
 }

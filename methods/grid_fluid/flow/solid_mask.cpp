@@ -22,7 +22,7 @@ void check(const SolidMask& mask, const CellLayout& layout) {
         throw InputError("solids: got " + std::to_string(mask.body.size()) +
                          " cells, allowed: " + std::to_string(count) + ", as many as the grid has");
     if (!mask.body.empty() && std::find(mask.body.begin(), mask.body.end(), 0) == mask.body.end())
-        throw InputError("solids: they fill the whole box; expected at least one cell of fluid");
+        throw InputError("solids: the whole box is solid, expected at least one cell of fluid");
     for (std::size_t n = 0; n < mask.motions.size(); ++n) {
         const BodyMotion& motion = mask.motions[n];
         const glm::vec3 all = motion.velocity + motion.turnPerCell + motion.centreCells;

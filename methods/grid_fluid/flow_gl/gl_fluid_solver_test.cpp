@@ -407,7 +407,7 @@ TEST(GlFluidSolver, RefusesBadInputInOneLine) {
 
     GlFluidSolver solver(flow.settings, device(), ledger);
     const std::vector<std::uint8_t> full(512, 1);
-    EXPECT_NE(inputError([&] { solver.setSolids({full, {}}); }).find("fill the whole box"), std::string::npos);
+    EXPECT_NE(inputError([&] { solver.setSolids({full, {}}); }).find("the whole box is solid"), std::string::npos);
     EXPECT_NE(inputError([&] { solver.step(-1, {}); }).find("step"), std::string::npos);
     const std::vector<std::uint8_t> one = [] {
         std::vector<std::uint8_t> some(512, 0);

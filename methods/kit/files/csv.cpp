@@ -67,7 +67,7 @@ class Records {
             if (text_[at_] == '\n') ++line_;
             cell += text_[at_];
         }
-        throw InputError(name_ + ":" + std::to_string(first) + ": a quote is opened and never closed");
+        throw InputError(name_ + ":" + std::to_string(first) + ": a quote is not closed");
     }
 
     std::string_view text_;

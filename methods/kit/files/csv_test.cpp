@@ -67,7 +67,7 @@ TEST(Csv, NamesTheLineOfWhatIsWrong) {
     const auto nothing = [](const CsvTable&) {};
     EXPECT_EQ(messageOf("", nothing), "d.csv:1: the file is empty, expected a header line");
     EXPECT_EQ(messageOf("a,b\n1,2\n3\n", nothing), "d.csv:3: got 1 cells, expected 2 as in the header");
-    EXPECT_EQ(messageOf("a\n\"open\n", nothing), "d.csv:2: a quote is opened and never closed");
+    EXPECT_EQ(messageOf("a\n\"open\n", nothing), "d.csv:2: a quote is not closed");
     EXPECT_EQ(messageOf("a\n1\nx\n", [](const CsvTable& t) { (void)t.number(1, "a"); }),
               "d.csv:3: column 'a': got 'x', expected a number");
     EXPECT_EQ(messageOf("a\n1\n", [](const CsvTable& t) { (void)t.number(0, "b"); }), "d.csv:1: column 'b' is missing");

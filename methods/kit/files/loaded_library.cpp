@@ -14,7 +14,7 @@ fs::path ownFile() {
     Dl_info info{};
     void* loaded = nullptr;
     if (dladdr1(reinterpret_cast<const void*>(&ownFile), &info, &loaded, RTLD_DL_LINKMAP) == 0)
-        throw std::runtime_error("cannot find the folder of dustbench's libraries");
+        throw std::runtime_error("the folder of dustbench's libraries was not found");
     const std::string name = static_cast<const link_map*>(loaded)->l_name;
     return name.empty() ? fs::read_symlink("/proc/self/exe") : fs::canonical(name);  // the program's name is empty
 }
@@ -31,8 +31,8 @@ void* functionOf(const std::string& name, const std::string& function, const std
     void* address = library == nullptr ? nullptr : dlsym(library, function.c_str());
     if (address == nullptr) {
         const char* reason = dlerror();
-        throw std::runtime_error("cannot load the library for " + what + ": " +
-                                 (reason == nullptr ? file.string() : std::string(reason)));
+        throw std::runtime_error("the library for " + what +
+                                 " cannot be loaded: " + (reason == nullptr ? file.string() : std::string(reason)));
     }
     return address;
 }

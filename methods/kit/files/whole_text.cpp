@@ -24,7 +24,7 @@ std::string systemReason(const std::filesystem::path& file) {
 }
 
 std::string tooLong(std::uintmax_t maximumBytes) {
-    return fmt::format("is too long, allowed: {} MB (limit of such files)", maximumBytes / 1'000'000);
+    return fmt::format("is too large, allowed: {} MB (limit of such files)", maximumBytes / 1'000'000);
 }
 
 std::string kindOf(mode_t mode) {

@@ -41,12 +41,12 @@ TEST(WholeText, NamesTheLimitBeforeItReads) {
     const TestFolder folder;
     const auto sparse = folder.write("sparse", "x");
     std::filesystem::resize_file(sparse, std::uintmax_t{1} << 40);
-    for (const std::string& message : refusals(sparse)) EXPECT_THAT(message, HasSubstr("is too long, allowed: 64 MB"));
+    for (const std::string& message : refusals(sparse)) EXPECT_THAT(message, HasSubstr("is too large, allowed: 64 MB"));
     std::filesystem::resize_file(sparse, 1000);
     EXPECT_EQ(wholeText(sparse, "a text", 1000).size(), 1000u);
     EXPECT_NE(refusalOf(sparse, 999), "");
     EXPECT_EQ(refusalOf(sparse, 1000), "");
-    EXPECT_THAT(inputError([] { (void)wholeText("/proc/self/status", "a text", 10); }), HasSubstr("is too long"));
+    EXPECT_THAT(inputError([] { (void)wholeText("/proc/self/status", "a text", 10); }), HasSubstr("is too large"));
 }
 
 }  // namespace

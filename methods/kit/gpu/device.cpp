@@ -59,9 +59,10 @@ Opened openPreferred() {
     });
     if (taken) return {std::move(context), adapters[*taken], whyPreferred(adapters, *taken)};
     requireMemory();
-    throw InputError("OpenGL 4.5 is needed, but EGL does not provide it (" +
-                     (adapters.empty() ? "it offers neither a device nor surfaceless" : problemsOf(adapters)) +
-                     "); install Mesa's DRI drivers (libgl1-mesa-dri) or a GPU driver");
+    throw InputError(
+        "OpenGL 4.5 is needed, but EGL does not provide it (" +
+        (adapters.empty() ? "it offers neither a device nor a surfaceless display" : problemsOf(adapters)) +
+        "); install Mesa's DRI drivers (libgl1-mesa-dri) or a GPU driver");
 }
 
 }  // namespace

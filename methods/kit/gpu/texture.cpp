@@ -168,7 +168,8 @@ void Texture::writeRectangle(int column, int row, int width, int height, std::sp
         throw std::invalid_argument("texture of " + std::to_string(width_) + "x" + std::to_string(height_) + ": got " +
                                     std::to_string(values.size()) + " bytes for " + std::to_string(width) + "x" +
                                     std::to_string(height) + " texels from (" + std::to_string(column) + ", " +
-                                    std::to_string(row) + ") on");
+                                    std::to_string(row) +
+                                    ") on, expected texels within it and a byte for each channel");
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTextureSubImage2D(name_.get(), 0, column, row, width, height, names.channels, GL_UNSIGNED_BYTE, values.data());
     throwOnDebugOutput("writing a texture");

@@ -159,7 +159,7 @@ class ObjReader {
         const auto index = parse<std::int64_t>(text);
         const auto count = static_cast<std::int64_t>(given);
         if (!index || *index == 0 || *index > count || *index < -count)
-            lines_.fail(fmt::format("a face names {} {}, expected 1..{}", kinds[part], inQuotes(text), count));
+            lines_.fail(fmt::format("a face refers to {} {}, expected 1..{}", kinds[part], inQuotes(text), count));
         return static_cast<std::uint32_t>(*index > 0 ? *index - 1 : count + *index);
     }
 

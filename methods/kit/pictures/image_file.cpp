@@ -88,10 +88,10 @@ std::vector<std::string> unusedParts(const StoredPicture& picture, int colours, 
 void writeImage(const Image& image, const fs::path& file) {
     const std::string extension = file.extension().string();
     if (extension != ".png" && extension != ".exr")
-        throw InputError("cannot write image '" + file.string() + "': got extension '" + extension +
+        throw InputError("image '" + file.string() + "' cannot be written: got extension '" + extension +
                          "', expected .png or .exr");
     if (image.width < 1 || image.height < 1)
-        throw InputError("cannot write image '" + file.string() + "': it has no pixels");
+        throw InputError("image '" + file.string() + "' cannot be written: it has no pixels");
 
     // A temporary file next to the target keeps the rename within one file system; the process id makes it unique.
     fs::path beside = file;
@@ -100,7 +100,7 @@ void writeImage(const Image& image, const fs::path& file) {
         std::error_code ignored;
         fs::remove(beside, ignored);
         if (files::isOfMachine(error)) files::failWriting(file, error);
-        throw InputError("cannot write image '" + file.string() + "': " + reason);
+        throw InputError("image '" + file.string() + "' cannot be written: " + reason);
     };
     errno = 0;
     if (const std::string reason = tryToWrite(image, beside, extension == ".png"); !reason.empty()) fail(reason, errno);
@@ -114,18 +114,18 @@ std::string encodedPng(const Image& image) {
     const bool withAlpha = !isOpaque(image);
     const std::string reason =
         encodePng(image.width, image.height, withAlpha ? 4 : 3, encodedBytes(image, withAlpha), png);
-    if (!reason.empty()) throw InputError("cannot encode an image: " + reason);
+    if (!reason.empty()) throw InputError("an image cannot be encoded: " + reason);
     return png;
 }
 
 Image readImage(const fs::path& file) {
     StoredPicture stored;
     if (const std::string reason = readPicture(file, stored); !reason.empty())
-        throw InputError("cannot read image '" + file.string() + "': " + reason);
+        throw InputError("image '" + file.string() + "' cannot be read: " + reason);
     if (const std::string reason = stored.encoding.refusal(); !reason.empty())
-        throw InputError("cannot read image '" + file.string() + "': " + reason);
+        throw InputError("image '" + file.string() + "' cannot be read: " + reason);
     if (const std::string reason = tooLarge(stored.width, stored.height, 4); !reason.empty())
-        throw InputError("cannot read image '" + file.string() + "': " + reason);
+        throw InputError("image '" + file.string() + "' cannot be read: " + reason);
     const int hues = stored.channels - (stored.alphaChannel >= 0 ? 1 : 0);
     files::noteIgnored(file, unusedParts(stored, hues < 3 ? 1 : 3, true));
     const auto pixels = static_cast<std::size_t>(stored.width) * static_cast<std::size_t>(stored.height);

@@ -16,8 +16,8 @@ namespace dustbench::volumes {
 namespace {
 
 [[noreturn]] void fail(int error) {
-    throw std::runtime_error(std::string("cannot start ") + vdbReaderName +
-                             ", which reads volumes: " + std::strerror(error));
+    throw std::runtime_error(vdbReaderName + std::string(", which reads volumes, cannot be started: ") +
+                             std::strerror(error));
 }
 
 /// Returns an error number, or 0.

@@ -97,8 +97,8 @@ void VoxelEdit::applyTo(VoxelGrid& grid) const {
         const auto text = [](const glm::vec3& p) {
             return std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z);
         };
-        throw InputError(where + "the edit meets no voxel of the shape, which lies within (" + text(low) + ") to (" +
-                         text(high) + ")");
+        throw InputError(where + "the edit contains no voxel of the shape, which extends from (" + text(low) +
+                         ") to (" + text(high) + ")");
     }
     if (change.active) grid.listActive();
 }

@@ -102,8 +102,8 @@ Lattice latticeOf(const volumes::VtiFile& vti, const std::filesystem::path& file
             fail(file, "got " + std::to_string(lattice.counts[axis]) + " voxels along one side, allowed: 1.." +
                            std::to_string(maximumVoxelsASide));
         if (!(spacing[axis] > 0) || !(std::abs(spacing[axis] / spacing.x - 1) <= 1e-5))
-            fail(file, "the voxels are not cubes: got spacings of " + std::to_string(spacing.x) + ", " +
-                           std::to_string(spacing.y) + ", " + std::to_string(spacing.z));
+            fail(file, "got voxels of " + std::to_string(spacing.x) + " x " + std::to_string(spacing.y) + " x " +
+                           std::to_string(spacing.z) + " m, expected cubes");
         lattice.origin[axis] = static_cast<float>(vti.origin()[axis]);
     }
     lattice.edgeMetres = static_cast<float>(spacing.x);

@@ -35,7 +35,7 @@
     };
     const countLine = (counts, what) => {
         const total = [...counts.values()].reduce((sum, count) => sum + count, 0);
-        const order = ['agree', 'agree, by another factor', 'differ', 'open', 'one machine only'];
+        const order = ['agree', 'agree, by different factors', 'differ', 'open', 'one machine only'];
         return element('p', { className: 'verdicts' }, [`${plural(total, what)}: `, ...order.filter(name => counts.get(name)).map(name => {
             const mark = machineTables.agreementMark(name);
             mark.textContent = `${counts.get(name)} ${name}`;
@@ -159,7 +159,7 @@
                 'The value is the geometric mean, with the 95\u00a0% interval of Student\'s t over the logarithms of the paired runs. If all machines share several seeds, the interval is over the seeds, each the mean of its repetitions. ' +
                 'Faster: the interval lies entirely below 1/1.02. Slower: entirely above 1.02. Same: between. Unresolved: anything else, and always with fewer than 6 pairs.'),
             paragraph('All together: each repetition or seed gives one ratio, the geometric mean over the loads and worlds that all machines with both methods share.'),
-            paragraph('Agree: all machines give the same verdict, and their intervals overlap. By another factor: the same verdict, but two intervals do not overlap. Differ: two verdicts. Open: unresolved on a machine, and no machines contradict each other.'),
+            paragraph('Agree: all machines give the same verdict, and their intervals overlap. By different factors: the same verdict, but two intervals do not overlap. Differ: two verdicts. Open: unresolved on a machine, and no machines contradict each other.'),
             paragraph('Times: medians over the repetitions, or over the medians of several seeds, with intervals from the order statistics.'),
             element('details', {}, [element('summary', { textContent: 'Licence of the chart library' }), section('licence').content.cloneNode(true)]),
         ]));

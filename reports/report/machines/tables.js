@@ -5,7 +5,7 @@ const machineTables = (() => {
     const { hasInterval, ratiosAgainst, worldText } = machineData;
     const { digits } = chartStyle;
     const verdictMarks = { confirmed: '✓', refuted: '✗', depends: '±', unresolved: '?', untestable: '!', 'not-tested': '–' };
-    const agreementClass = text => ({ agree: 'agree', 'agree, by another factor': 'factor', differ: 'differ', open: 'open' }[text] || 'alone');
+    const agreementClass = text => ({ agree: 'agree', 'agree, by different factors': 'factor', differ: 'differ', open: 'open' }[text] || 'alone');
     const agreementMark = text => element('span', { className: `agreement ${agreementClass(text)}`, textContent: text });
     const machineName = machine => element('span', { className: 'machine-name', textContent: machine.label, dataset: { machine: machine.label } });
     /// Puts the machines' names, in their colours, into the column heads.

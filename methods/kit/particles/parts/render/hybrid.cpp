@@ -21,8 +21,8 @@ struct Traits {
 }  // namespace
 
 PartInfo describe() {
-    return LookPart<Traits>::describe("a point and a faded line each; also shows slow particles", "Thesis, 4.1.4",
-                                      Blending::additive);
+    return LookPart<Traits>::describe("a point and a fading line for each particle; also shows slow particles",
+                                      "Thesis, 4.1.4", Blending::additive);
 }
 
 }  // namespace dustbench::particles::parts::render::hybrid

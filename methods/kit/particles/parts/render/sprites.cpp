@@ -15,7 +15,7 @@ struct Traits {
 }  // namespace
 
 PartInfo describe() {
-    return LookPart<Traits>::describe("pictures, all parallel to the image", "Thesis, 4.1.5", Blending::additive);
+    return LookPart<Traits>::describe("pictures, all parallel to the image plane", "Thesis, 4.1.5", Blending::additive);
 }
 
 }  // namespace dustbench::particles::parts::render::sprites
