@@ -150,7 +150,7 @@ PartInfo describe() {
         .real("diagonals", 0.5, 0, 1, "", "stiffness of diagonals as a share of that of edges; 0: none")
         .real("bending", 0.1, 0, 1, "", "stiffness of links across one point, which resist bending; 0: none")
         .choice("pins", Pins::none, pinWords, pinHelp)
-        .integer("substeps", 10, 1, 1000, "", "iterations of each step with step=position")
+        .integer("substeps", 10, 1, 1000, "", "substeps of each step with step=position")
         .choice("beyond_limit", Beyond::error, beyondWords,
                 "explicit steps beyond the stability limit: report an error, or run them anyway");
     info.create = [](const ParameterValues& values) { return std::make_unique<Springs>(values); };
