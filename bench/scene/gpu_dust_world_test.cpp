@@ -46,7 +46,9 @@ void expectSameDust(const Worlds& worlds, const std::string& where) {
     EXPECT_LE(largest, 1e-4f) << where;
     EXPECT_EQ(gpu.uniformColour, cpu.uniformColour) << where;
     EXPECT_EQ(gpu.colourOfAll, cpu.colourOfAll) << where;
-    if (deviceOfDust().isSoftware()) EXPECT_EQ(worlds.gpu.stateHash(), worlds.cpu.stateHash()) << where;
+    if (deviceOfDust().isSoftware()) {
+        EXPECT_EQ(worlds.gpu.stateHash(), worlds.cpu.stateHash()) << where;
+    }
 }
 
 TEST(GpuDustWorld, HasTheDustOfTheCpuAfterTenSecondsOfEveryDrive) {
