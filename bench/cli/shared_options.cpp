@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "bench/results/input_files.h"
+#include "bench/run/dust_place.h"
 #include "bench/scene/world.h"
 #include "bench/suite/value_list.h"
 #include "methods/contract/errors.h"
@@ -33,10 +34,12 @@ void checkWorlds(const std::vector<bench::PlannedRun>& plan) {
     for (const bench::PlannedRun& run : plan) {
         const auto parameters = bench::resolveParameters(findMethod(run.spec.method), run.spec.parameters);
         (void)bench::dataFilesOf(parameters.method);
-        const std::string dust = fmt::format("{}\n{}\n{}", run.spec.dust, run.spec.dustColumns, run.spec.frames);
+        const std::string dust = fmt::format("{}\n{}\n{}\n{}", run.spec.dust, run.spec.dustColumns, run.spec.frames,
+                                             bench::dustPlaces.wordOf(run.spec.dustOn));
         if (!seen.emplace(run.spec.scene, run.spec.drive, parameters.world.canonical(), dust).second) continue;
         bench::World loads(run.spec.scene, run.spec.drive, parameters.world, run.spec.seed);
         loads.useDust(bench::givenDust(run.spec));
+        bench::requireDustPlace(run.spec, loads);
     }
 }
 

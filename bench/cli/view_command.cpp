@@ -55,6 +55,8 @@ bench::ViewState ofOptions(const ViewOptions& options) {
     const bool byKeyboard = world.drive == bench::keyboardDrive;
     if (byKeyboard) world.drive.clear();
     const bench::RunSpec spec = world.toWorldSpec();
+    if (spec.dustOn == bench::DustOn::gpu)
+        throw InputError("--dust-on: got gpu, allowed in the window: cpu|auto (its dust is always on the CPU)");
     bench::ViewState state;
     state.scene = spec.scene;
     state.drive = byKeyboard ? bench::keyboardDrive : spec.drive;

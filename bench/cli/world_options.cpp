@@ -51,6 +51,10 @@ void WorldOptions::declareWorld(Arguments& arguments) {
                    "names of its columns, by the keys position, radius, opacity, mass, age, lifetime, id, velocity, "
                    "colour, time, scale, up; or a .toml file with them; default: the usual names",
                    dustColumns);
+    arguments.text("--dust-on", "cpu|gpu|auto",
+                   "where the scene's dust is simulated; auto: on the GPU if it is hardware and has shaders for all "
+                   "parts of the dust",
+                   dustOn);
     arguments.texts("-P", "name=value", "set a parameter of the method or of the world", parameters);
     arguments.integer("--warmup", "unrecorded frames before frame 0", warmup, 0, 10'000'000);
     arguments.text("--size", "WxH", "size of the picture in pixels", size);
@@ -76,6 +80,7 @@ bench::RunSpec WorldOptions::toWorldSpec() const {
     if (!cameraPath.empty()) (void)bench::CameraPath::read(cameraPath);
     spec.dust = dust;
     spec.dustColumns = dustColumns;
+    spec.dustOn = bench::dustPlaces.parse("--dust-on", dustOn);
     spec.warmup = warmup;
     spec.size = bench::parseSize(size);
     spec.seed = static_cast<std::uint64_t>(seed);

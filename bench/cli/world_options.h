@@ -13,7 +13,7 @@ namespace dustbench::cli {
 
 struct WorldOptions {
     std::string method;
-    std::string scene = bench::RunSpec().scene, drive, cameraPath, dust, dustColumns;
+    std::string scene = bench::RunSpec().scene, drive, cameraPath, dust, dustColumns, dustOn = "auto";
     std::vector<std::string> parameters;  ///< values of -P, not yet parsed
     std::vector<std::string> changes;     ///< values of --at
     std::int64_t warmup = bench::RunSpec().warmup;

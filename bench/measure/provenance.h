@@ -36,11 +36,18 @@ struct IgnoredParts {
     std::vector<std::string> parts;
 };
 
+/// Where the shared dust was simulated.
+struct DustPlace {
+    std::string place;  ///< `cpu` or `gpu`; empty if no device was created
+    std::string why;    ///< `requested`, `software device` …
+};
+
 struct Provenance {
     std::vector<std::string> argv;
     BuildFacts build;
     Machine machine;
     gpu::DeviceInfo device;  ///< empty strings if no device was created
+    DustPlace dustOn{};
     bool gpuTimersTrusted = false;
     ClockCost clock;
     std::vector<InputHash> inputs;

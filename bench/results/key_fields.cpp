@@ -44,6 +44,7 @@ RunSpec specFromKey(const StoredRun& run) {
         if (name == "camera_path") spec.cameraPath = text;
         if (name == "dust") spec.dust = text;
         if (name == "dust_columns") spec.dustColumns = text;
+        if (name == "dust_on") spec.dustOn = dustPlaces.parse("dust_on", text);
         if (name == "frames") readNumber(run, name, text, spec.frames);
         if (name == "warmup") readNumber(run, name, text, spec.warmup);
         if (name == "size") spec.size = parseSize(text);

@@ -96,6 +96,8 @@ Json provenanceObject(const Provenance& provenance) {
         {"adapter", provenance.device.adapter},
         {"adapter_index", provenance.device.adapterIndex < 0 ? Json(nullptr) : Json(provenance.device.adapterIndex)},
         {"adapter_why", provenance.device.adapterWhy},
+        {"dust_on", provenance.dustOn.place},
+        {"dust_on_why", provenance.dustOn.why},
         {"gpu_timers", provenance.gpuTimersTrusted},
         {"clock_reading_ns", provenance.clock.readingNs},
         {"clock_stage_ns", provenance.clock.stageNs},
@@ -159,6 +161,7 @@ Json specObject(const RunSpec& spec) {
             {"camera_path", spec.cameraPath},
             {"dust", spec.dust},
             {"dust_columns", spec.dustColumns},
+            {"dust_on", dustPlaces.wordOf(spec.dustOn)},
             {"seed", spec.seed},
             {"repetition", spec.repetition},
             {"frames", spec.frames},
@@ -250,6 +253,7 @@ RunSpec specFromJson(std::string_view text) {
         spec.cameraPath = json.at("camera_path").get<std::string>();
         spec.dust = json.at("dust").get<std::string>();
         spec.dustColumns = json.at("dust_columns").get<std::string>();
+        spec.dustOn = dustPlaces.parse("dust_on", json.at("dust_on").get<std::string>());
         for (const auto& [name, value] : json.at("parameters").items())
             spec.parameters[name] = value.get<std::string>();
         spec.frames = json.at("frames").get<std::int64_t>();

@@ -43,6 +43,11 @@ TEST(RunRecord, SpecificationSurvivesItsFile) {
     withPath.cameraPath = "0,1,2,3,4,5,6,50;2,1,2,9,4,5,6,50";
     EXPECT_EQ(canonicalKey(specFromJson(specToJson(withPath))), canonicalKey(withPath));
     EXPECT_NE(runId(withPath), runId(spec()));
+    for (const DustOn place : {DustOn::cpu, DustOn::gpu, DustOn::automatic}) {
+        RunSpec placed = spec();
+        placed.dustOn = place;
+        EXPECT_EQ(specFromJson(specToJson(placed)).dustOn, place);
+    }
     EXPECT_THROW((void)specFromJson("{}"), InputError);
     EXPECT_THROW((void)specFromJson("not json"), InputError);
 }

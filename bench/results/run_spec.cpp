@@ -114,6 +114,7 @@ std::string canonicalKey(const RunSpec& spec) {
     std::string key = fmt::format("method={}\nscene={}\ndrive={}\n", spec.method, spec.scene, spec.drive);
     if (!spec.cameraPath.empty()) key += fmt::format("camera_path={}\n", spec.cameraPath);
     if (!spec.dust.empty()) key += fmt::format("dust={}\ndust_columns={}\n", spec.dust, spec.dustColumns);
+    if (spec.dustOn != DustOn::automatic) key += fmt::format("dust_on={}\n", dustPlaces.wordOf(spec.dustOn));
     for (const auto& [name, text] : spec.parameters)
         if (!isLaterDefault(name, text)) key += fmt::format("p.{}={}\n", name, text);
     key += fmt::format("frames={}\nwarmup={}\nsize={}x{}\nseed={}\nthreads={}\nsync={}\nimages={}\nrepetition={}\n",

@@ -21,6 +21,11 @@ namespace dustbench::bench {
 enum class Sync { frame, stage, none };
 inline constexpr Choices<Sync> syncs{{"frame", Sync::frame}, {"stage", Sync::stage}, {"none", Sync::none}};
 
+/// Where the shared dust is simulated; `automatic`: on the GPU if it is hardware and has shaders for all of the dust's
+/// parts.
+enum class DustOn { cpu, gpu, automatic };
+inline constexpr Choices<DustOn> dustPlaces{{"cpu", DustOn::cpu}, {"gpu", DustOn::gpu}, {"auto", DustOn::automatic}};
+
 struct ImageSize {
     int width = 640;
     int height = 480;
@@ -34,10 +39,11 @@ using ParameterTexts = std::map<std::string, std::string, std::less<>>;
 struct RunSpec {
     std::string method;
     std::string scene = "plain";
-    std::string drive;          ///< empty: the scene's own
-    std::string cameraPath;     ///< file or rows (camera_path.h); empty: the camera of the parameter `camera`
-    std::string dust;           ///< particles from a file (dust_files.h) instead of the scene's; empty: the scene's
-    std::string dustColumns;    ///< the meaning of its columns (dust_columns.h); empty: by name
+    std::string drive;        ///< empty: the scene's own
+    std::string cameraPath;   ///< file or rows (camera_path.h); empty: the camera of the parameter `camera`
+    std::string dust;         ///< particles from a file (dust_files.h) instead of the scene's; empty: the scene's
+    std::string dustColumns;  ///< the meaning of its columns (dust_columns.h); empty: by name
+    DustOn dustOn = DustOn::automatic;
     ParameterTexts parameters;  ///< all parameters of world and method, in canonical form
     std::int64_t frames = 120;
     std::int64_t warmup = 10;

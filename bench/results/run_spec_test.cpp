@@ -34,7 +34,7 @@ TEST(RunSpec, EveryFieldTellsRunsApart) {
     RunSpec base;
     base.method = "haze";
     base.parameters = canonicalParameters(haze(), {});
-    std::vector<RunSpec> specs(19, base);
+    std::vector<RunSpec> specs(21, base);
     specs[1].method = "mist";
     specs[2].scene = "hills";
     specs[3].drive = "slalom";
@@ -47,12 +47,14 @@ TEST(RunSpec, EveryFieldTellsRunsApart) {
     specs[10].sync = Sync::stage;
     specs[11].imagesEvery = 60;
     specs[12].repetition = 2;
-    for (std::size_t i = 13; i < specs.size(); ++i) specs[i].volumes.emplace();
+    for (std::size_t i = 13; i < 19; ++i) specs[i].volumes.emplace();
     specs[14].volumes->frames = {0, 8, 4};
     specs[15].volumes->formats = {VolumeFormat::vti, VolumeFormat::vtp};
     specs[16].volumes->resolution = 64;
     specs[17].volumes->region = Box{{0, 0, 0}, {1, 2, 3}};
     specs[18].volumes->vdbPrecision = VdbPrecision::single;
+    specs[19].dustOn = DustOn::cpu;
+    specs[20].dustOn = DustOn::gpu;
     std::set<std::string> ids;
     for (const RunSpec& spec : specs) ids.insert(runId(spec));
     EXPECT_EQ(ids.size(), specs.size());

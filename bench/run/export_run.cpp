@@ -8,6 +8,7 @@
 #include "bench/export/whole_file.h"
 #include "bench/results/input_files.h"
 #include "bench/results/run_record.h"
+#include "bench/run/dust_place.h"
 #include "bench/run/frame_runner.h"
 #include "bench/run/replay.h"
 #include "bench/run/thread_limit.h"
@@ -43,6 +44,7 @@ ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const Run
     VolumeExporter exporter(*spec.volumes, folder);
     gpu::Device device;
     record.provenance.device = device.info();
+    record.provenance.dustOn = placeDust(spec, world, device);
     FrameRunner runner(spec, world, device, parameters.method, false);
     recordInputs(world, parameters.method, read, record.provenance);
 

@@ -23,9 +23,9 @@ double milliseconds(std::int64_t ns) {
     return static_cast<double>(ns) / 1e6;
 }
 
-std::int64_t cpuBytes(const MemoryReport& report) {
+std::int64_t bytesOf(const MemoryReport& report, std::size_t MemoryUse::*where) {
     std::size_t bytes = 0;
-    for (const MemoryUse& use : report) bytes += use.cpuBytes;
+    for (const MemoryUse& use : report) bytes += use.*where;
     return static_cast<std::int64_t>(bytes);
 }
 
@@ -134,7 +134,7 @@ void FrameRunner::frame(std::int64_t index) {
     {
         const auto timing = clock.measure(Stage::simulate);
         world_.simulate();
-        (void)world_.dust();  // lights it, if the sun does
+        if (!world_.gpuDust()) (void)world_.dust();  // lights it, if the sun does
     }
     const Frame now = host_.see(index, clock);
     {
@@ -167,12 +167,32 @@ void FrameRunner::keepRecord(std::int64_t index, std::int64_t elapsedNs) {
         record.stageMs[stage] = milliseconds(recorder_.stageNs()[stage]);
     for (const StageRecorder::Detail& detail : recorder_.details())
         record.details.push_back({detail.stage, std::string(detail.name), milliseconds(detail.ns)});
-    record.particles = static_cast<std::int64_t>(world_.dust().size());
     record.primitives = host_.method().primitives();
-    record.cpuBytes = cpuBytes(world_.memory()) + host_.cpuBytes();
-    record.gpuBytes = host_.gpuBytes();
+    if (const GpuPuffs* const dust = world_.gpuDust()) {
+        // Read later: with frames in flight, reading now would wait for them.
+        pendingCounts_.emplace_back(records_.size(),
+                                    gpu::Buffer(device_, "number of particles", sizeof(std::uint32_t)));
+        pendingCounts_.back().second.copyFrom(*dust->tally, sizeof(std::uint32_t));
+    } else {
+        record.particles = static_cast<std::int64_t>(world_.dust().size());
+    }
+    const MemoryReport ofWorld = world_.memory();
+    record.cpuBytes = bytesOf(ofWorld, &MemoryUse::cpuBytes) + host_.cpuBytes();
+    record.gpuBytes = bytesOf(ofWorld, &MemoryUse::gpuBytes) + host_.gpuBytes();
     record.rssBytes = residentBytes();
     records_.push_back(std::move(record));
+    if (spec_.sync != Sync::none) collectCounts();
+}
+
+void FrameRunner::collectCounts() {
+    for (const auto& [index, buffer] : pendingCounts_) {
+        std::uint32_t particles = 0;
+        buffer.read(std::span(&particles, 1));
+        FrameRecord& record = records_[index];
+        record.particles = particles;
+        if (record.primitives == Method::onePerPuff) record.primitives = particles;
+    }
+    pendingCounts_.clear();
 }
 
 void FrameRunner::collectGpuTimes() {
@@ -188,12 +208,13 @@ void FrameRunner::drain() {
     device_.finish();
     lastFrame_ = gpu::Fence();
     lastEndNs_ = 0;
+    collectCounts();
     collectGpuTimes();
 }
 
 void FrameRunner::volume(VolumeVisitor& visitor) {
     const StageClock untimed;
-    host_.method().volume(host_.see(lastIndex_, untimed), visitor);
+    host_.method().volume(host_.seeParticles(lastIndex_, untimed), visitor);
 }
 
 Columns FrameRunner::facts() {

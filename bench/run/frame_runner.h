@@ -16,6 +16,7 @@
 #include "bench/results/run_spec.h"
 #include "bench/run/method_host.h"
 #include "bench/scene/world.h"
+#include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/device.h"
 #include "methods/kit/gpu/fence.h"
 #include "methods/kit/gpu/timer_query.h"
@@ -63,6 +64,7 @@ class FrameRunner {
     void waitForGpu();
     void keepRecord(std::int64_t index, std::int64_t elapsedNs);
     void collectGpuTimes();
+    void collectCounts();
 
     RunSpec spec_;
     World& world_;
@@ -74,6 +76,8 @@ class FrameRunner {
     std::int64_t lastIndex_ = 0;
     bool useGpuTimers_;
     std::deque<std::pair<std::size_t, gpu::TimerQuery>> pendingGpuTimes_;  ///< by index into records_
+    /// Copies of the number of particles on the GPU, by index into records_.
+    std::deque<std::pair<std::size_t, gpu::Buffer>> pendingCounts_;
     std::vector<FrameRecord> records_;
 };
 

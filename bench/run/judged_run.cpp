@@ -6,6 +6,7 @@
 
 #include "bench/export/whole_file.h"
 #include "bench/measure/image/heat_map.h"
+#include "bench/run/dust_place.h"
 #include "bench/run/replay.h"
 #include "methods/contract/registry.h"
 
@@ -32,6 +33,7 @@ class FinerRun {
           runner_(spec, world_, device, parameters_.method, false) {
         world_.followPath(spec.cameraPath);
         world_.useDust(givenDust(spec));
+        (void)placeDust(spec, world_, device);
     }
 
     void step(std::int64_t step, std::int64_t prerollSteps, std::int64_t warmup) {
@@ -80,6 +82,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
     World world(spec.scene, spec.drive, parameters.world, spec.seed);
     world.followPath(spec.cameraPath);
     world.useDust(givenDust(spec));
+    (void)placeDust(spec, world, device);
     std::optional<World> continuum;
     std::optional<FinerRun> finer;
     if (!spec.judging->finer.empty())
@@ -114,7 +117,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
             runner.volume(volume);
             finer ? finer->volume(reference) : reference.puffs(world.dust());
             JudgedMoment judged =
-                judgeMoment(drawn, exact, {runner.method().primitives(), volume, reference, view, spec.seed});
+                judgeMoment(drawn, exact, {runner.host().primitives(), volume, reference, view, spec.seed});
             judged.metrics.frame = frame;
             if (spec.judging->keepsPictures) savePictures(judged, folder / "images");
             metrics = judged.metrics;

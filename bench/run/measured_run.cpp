@@ -17,6 +17,7 @@
 #include "bench/results/results_folder.h"
 #include "bench/results/summary.h"
 #include "bench/results/validity.h"
+#include "bench/run/dust_place.h"
 #include "bench/run/frame_runner.h"
 #include "bench/run/judged_run.h"
 #include "bench/run/thread_limit.h"
@@ -169,6 +170,9 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     gpu::Device device;
     const auto freeAtStart = device.driverFreeBytes();
     record.provenance.device = device.info();
+    record.provenance.dustOn = placeDust(spec, world, device);
+    if (std::string warning = readBackWarning(world, info, parameters.method); !warning.empty())
+        record.provenance.warnings.push_back(std::move(warning));
     WholeRun whole;
     whole.softwareRenderer = device.isSoftware();
     // Without a GPU there are no GPU times, and the self-test would compile a shader for nothing.

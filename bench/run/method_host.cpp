@@ -22,6 +22,10 @@ std::string whyNotTaken(const MethodInfo& method, const scene::Scene& scene) {
     return method.cannotTake ? method.cannotTake(scene) : "";
 }
 
+bool takesGpuDust(const MethodInfo& method, const ParameterValues& parameters) {
+    return method.takesGpuDust && method.takesGpuDust(parameters);
+}
+
 MethodHost::MethodHost(const World& world, gpu::Device& device, const MethodInfo& info,
                        const ParameterValues& parameters, int width, int height)
     : world_(world),
@@ -29,6 +33,7 @@ MethodHost::MethodHost(const World& world, gpu::Device& device, const MethodInfo
       info_(info),
       width_(width),
       height_(height),
+      takesGpuDust_(takesGpuDust(info, parameters)),
       ofFrame_(info.facts, FactOver::maximumOfFrames),
       maxima_(info.facts.size()) {
     const gpu::LedgerScope booked(device_, ledger_);
@@ -56,7 +61,22 @@ void MethodHost::resize(int width, int height) {
 
 Frame MethodHost::see(std::int64_t index, const StageClock& clock) {
     view_ = world_.view(width_, height_);
+    const GpuPuffs* const onGpu = world_.gpuDust();
+    if (!onGpu) return {index, stepSeconds, world_.state(), world_.dust(), view_, clock};
+    if (takesGpuDust_) {
+        Puffs none;
+        none.uniformColour = onGpu->colour == nullptr;
+        none.colourOfAll = onGpu->colourOfAll;
+        return {index, stepSeconds, world_.state(), none, view_, clock, onGpu};
+    }
+    const auto timing = clock.measure(Stage::upload);
     return {index, stepSeconds, world_.state(), world_.dust(), view_, clock};
+}
+
+Frame MethodHost::seeParticles(std::int64_t index, const StageClock& clock) {
+    view_ = world_.view(width_, height_);
+    return {
+        index, stepSeconds, world_.state(), world_.dust(), view_, clock, takesGpuDust_ ? world_.gpuDust() : nullptr};
 }
 
 void MethodHost::update(const Frame& frame) {
@@ -129,6 +149,11 @@ Columns MethodHost::facts(const Frame& lastFrame) {
         if (value) columns.emplace_back(fact.name, asCell(*value));
     }
     return columns;
+}
+
+std::int64_t MethodHost::primitives() const {
+    const std::int64_t drawn = method_->primitives();
+    return drawn == Method::onePerPuff ? static_cast<std::int64_t>(world_.dust().size()) : drawn;
 }
 
 std::int64_t MethodHost::cpuBytes() const {

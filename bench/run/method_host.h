@@ -24,6 +24,9 @@ namespace dustbench::bench {
 /// Why the method cannot show this scene, its lights included; empty if it can.
 [[nodiscard]] std::string whyNotTaken(const MethodInfo& method, const scene::Scene& scene);
 
+/// Whether the method takes the dust in GPU buffers, with these parameters.
+[[nodiscard]] bool takesGpuDust(const MethodInfo& method, const ParameterValues& parameters);
+
 class MethodHost {
  public:
     /// Prepares the method for the world. `world`, `device` and `info` must outlive the host.
@@ -34,8 +37,10 @@ class MethodHost {
     void resize(int width, int height);
 
     /// The current state of the world as the method sees it. Valid until the next call or step; `clock` must outlive
-    /// it.
+    /// it. Reads dust on the GPU back for methods that do not take it there, in the stage `upload`.
     [[nodiscard]] Frame see(std::int64_t index, const StageClock& clock);
+    /// The same with the particles on the CPU, for Method::volume.
+    [[nodiscard]] Frame seeParticles(std::int64_t index, const StageClock& clock);
     void update(const Frame& frame);
     /// Draws the opaque scene and the method and composes them; reported as the stages `scene` and `draw`.
     void draw(const Frame& frame);
@@ -60,6 +65,8 @@ class MethodHost {
     [[nodiscard]] Columns facts(const Frame& lastFrame);
 
     [[nodiscard]] const Method& method() const { return *method_; }
+    /// Primitives of the last `draw`. May read back the number of particles.
+    [[nodiscard]] std::int64_t primitives() const;
     [[nodiscard]] std::int64_t cpuBytes() const;
     [[nodiscard]] std::int64_t gpuBytes() const { return static_cast<std::int64_t>(ledger_.totalBytes()); }
     /// GPU bytes by structure.
@@ -76,6 +83,7 @@ class MethodHost {
     std::unique_ptr<draw::Composite> composite_;
     gpu::Texture noScene_;  ///< an empty depth image, created on first use
     int width_, height_;
+    bool takesGpuDust_;
     /// False for a method with its own simulation, which does not show the shared dust.
     bool dustThrowsShadow_ = false;
     scene::View view_{};

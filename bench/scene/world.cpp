@@ -10,6 +10,8 @@
 
 #include "bench/scene/drive_controls.h"
 #include "bench/scene/dust_series.h"
+#include "bench/scene/gpu_dust/gpu_dust.h"
+#include "bench/scene/gpu_dust/step_values.h"
 #include "bench/scene/scene_file.h"
 #include "bench/scene/vehicle_dynamics.h"
 #include "methods/contract/errors.h"
@@ -144,10 +146,16 @@ struct World::State {
     CameraLag lag{};
     std::optional<CameraPath> path{};    ///< replaces `camera`
     std::unique_ptr<ShownDust> given{};  ///< replaces `dust`
+    std::unique_ptr<GpuDust> gpuDust{};  ///< replaces `dust`, with its parts
+    GpuPuffs gpuPuffs{};                 ///< of `gpuDust`
     LitDust litDust{};
     std::optional<Puffs> lit{};  ///< for this step and camera, once requested
 
-    [[nodiscard]] Puffs unlit() const { return given ? given->store : dust.store(); }
+    [[nodiscard]] const particles::ParticleStore& store() const {
+        if (gpuDust) return gpuDust->readBack();
+        return given ? given->store : dust.store();
+    }
+    [[nodiscard]] Puffs unlit() const { return store(); }
     [[nodiscard]] scene::Camera eyeCamera() const {
         return path ? path->at(now.timeSeconds) : cameraAt(camera, file.cameras, now, lag, file.scene.terrain);
     }
@@ -225,6 +233,21 @@ Puffs World::unlitDust() const {
 }
 bool World::hasGivenDust() const {
     return state_->given != nullptr;
+}
+std::string World::whyDustStaysOnCpu() const {
+    if (state_->given) return "dust from a file";
+    if (state_->file.scene.lights.onDust) return "light=sun";
+    return partWithoutShader(state_->dust.parts());
+}
+void World::moveDustTo(gpu::Device& device) {
+    State& s = *state_;
+    if (const std::string why = whyDustStaysOnCpu(); !why.empty())
+        throw InputError("dust_on: got gpu, but " + why + " has no shader, allowed: cpu");
+    s.gpuDust = std::make_unique<GpuDust>(device, s.dust.parts(), s.seed);
+    s.gpuPuffs = s.gpuDust->buffers();
+}
+const GpuPuffs* World::gpuDust() const {
+    return state_->gpuDust ? &state_->gpuPuffs : nullptr;
 }
 RunSetup World::setup() const {
     return {state_->seed, state_->fixedCount};
@@ -313,13 +336,16 @@ void World::simulate() {
     s.lag = s.lag.followed(s.now.vehicle, s.file.cameras.chase.smoothingSeconds, stepSeconds);
     if (s.given)
         s.given->showAfter(s.stepIndex + s.prerollSteps);
-    else if (s.raisesDust)
+    else if (s.raisesDust && s.gpuDust) {
+        s.gpuDust->update({s.file.scene, s.now, stepSeconds, s.fixedCount});
+        s.gpuPuffs = s.gpuDust->buffers();
+    } else if (s.raisesDust)
         s.dust.update({s.file.scene, s.now, stepSeconds, s.fixedCount, s.particlesPerPuff});
     s.lit.reset();
 }
 
 std::uint64_t World::stateHash() const {
-    const std::uint64_t dust = state_->given ? state_->given->store.hash() : state_->dust.stateHash();
+    const std::uint64_t dust = state_->store().hash();
     return particles::stateHash(state_->now, std::span(&dust, 1));
 }
 
@@ -330,7 +356,9 @@ MemoryReport World::memory() const {
     for (const scene::SolidNow& solid : state_->now.solids)
         if (solid.shape) meshBytes += bytesOf(solid.shape->mesh) + solid.shape->velocities.size() * sizeof(glm::vec3);
     meshBytes += state_->file.movingSolids.bytes();
-    MemoryReport report = state_->given ? state_->given->memory() : state_->dust.memory();
+    MemoryReport report = state_->gpuDust ? state_->gpuDust->memory()
+                          : state_->given ? state_->given->memory()
+                                          : state_->dust.memory();
     if (scene.lights.onDust) report.push_back({"light of the dust", state_->litDust.bytes(), 0});
     report.push_back({"terrain", scene.terrain.heights().size() * sizeof(float), 0});
     report.push_back({"meshes", meshBytes, 0});

@@ -22,6 +22,10 @@
 #include "methods/contract/scene.h"
 #include "methods/contract/volume.h"
 
+namespace dustbench::gpu {
+class Device;
+}  // namespace dustbench::gpu
+
 namespace dustbench::bench {
 
 struct SceneFile;
@@ -65,6 +69,14 @@ class World {
     void useDust(const GivenDust& given);
     /// True if the dust is from a file.
     [[nodiscard]] bool hasGivenDust() const;
+
+    /// Why this world's dust cannot live on the GPU, as `the part force 'boids'` or `light=sun`; empty if it can.
+    [[nodiscard]] std::string whyDustStaysOnCpu() const;
+    /// Simulates the dust on the GPU from now on. Then dust() and stateHash() read it back, which waits for the GPU.
+    /// Call before the first step; `device` must outlive the world. Throws InputError with whyDustStaysOnCpu.
+    void moveDustTo(gpu::Device& device);
+    /// The dust in GPU buffers, valid until the next step; null if it is on the CPU.
+    [[nodiscard]] const GpuPuffs* gpuDust() const;
 
     /// The seed and the requested number of particles.
     [[nodiscard]] RunSetup setup() const;

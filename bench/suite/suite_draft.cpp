@@ -281,6 +281,7 @@ void SuiteDraft::read(files::TomlReader& table) {
         base.timed = table.boolean("times", true);
         timesWhere = table.where("times");
     }
+    if (table.has("dust_on")) base.dustOn = table.choice("dust_on", dustPlaces);
     if (table.has("sync")) base.sync = table.choice("sync", syncs);
 
     suite.title = table.text("title", suite.title);

@@ -39,11 +39,25 @@ Billboard::Billboard(const Settings& settings) : settings_(settings), sort_(ledg
 }
 
 void Billboard::prepare(const scene::Scene&, const RunSetup&, gpu::Device& device) {
+    device_ = &device;
     pictures_ = loadPictures(settings_.puff, device);
     quads_.emplace(device, settings_.style, pictures_ ? &*pictures_ : nullptr);
 }
 
+void Billboard::updateOnGpu(const Frame& frame) {
+    const GpuPuffs& dust = *frame.gpuDust;
+    const gpu::Buffer* order = nullptr;
+    if (settings_.sort != draw::SortKind::none) {
+        const auto timing = frame.clock.measure(Stage::sort);
+        if (!gpuOrder_) gpuOrder_.emplace(*device_);
+        order = &gpuOrder_->farToNear(dust, glm::vec3(frame.view.camera.eye));
+    }
+    const auto timing = frame.clock.measure(Stage::upload);
+    quads_->gather(dust, order);
+}
+
 void Billboard::update(const Frame& frame) {
+    if (frame.gpuDust) return updateOnGpu(frame);
     const Puffs& dust = frame.dust;
     const std::span<const float> opacity = byAge_ ? byAge_->of(dust) : dust.opacity;
     std::span<const std::uint32_t> order;
@@ -95,12 +109,13 @@ MemoryReport Billboard::memory() const {
     MemoryReport report;
     for (const auto& [structure, bytes] : ledger_.entries()) report.push_back({structure, bytes, 0});
     if (quads_) report.push_back({"billboards", 0, quads_->gpuBytes()});
+    if (gpuOrder_) report.push_back({"depth order", 0, gpuOrder_->bytes()});
     if (pictures_) report.push_back({"puff pictures", 0, pictures_->texture().bytes()});
     return report;
 }
 
 std::int64_t Billboard::primitives() const {
-    return quads_ ? static_cast<std::int64_t>(quads_->count()) : 0;
+    return quads_ ? quads_->primitives() : 0;
 }
 
 MethodInfo describe() {
@@ -125,6 +140,12 @@ MethodInfo describe() {
     draw::declareOpacity(info.parameters);
     info.parameters.choice("mode", "fixed", {"fixed", "paper"}, "draw by the optical model, or as in the paper")
         .preset("mode", "paper", {{"sort", "quicksort"}, {"puff", "texture"}, {"alpha", "plain"}, {"opacity", "age"}});
+    // Pictures, the opacity by age and the paper's quicksort run on the CPU.
+    info.takesGpuDust = [](const ParameterValues& values) {
+        return values.choice("sort", draw::sortKinds) != draw::SortKind::quicksort &&
+               values.choice("puff", puffs) == Puff::gaussian &&
+               values.choice("opacity", draw::opacityOrigins) == draw::OpacityFrom::dust;
+    };
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         Settings settings;
         settings.sort = values.choice("sort", draw::sortKinds);

@@ -13,6 +13,7 @@
 #include "methods/kit/draw/age_opacity.h"
 #include "methods/kit/draw/billboards.h"
 #include "methods/kit/draw/depth_sort.h"
+#include "methods/kit/draw/gpu_depth_order.h"
 #include "methods/kit/draw/puff_textures.h"
 
 namespace dustbench::billboard {
@@ -50,6 +51,7 @@ class Billboard final : public Method {
     [[nodiscard]] std::int64_t primitives() const override;
 
  private:
+    void updateOnGpu(const Frame& frame);
     void upload(const Puffs& dust, std::span<const float> opacity, std::span<const std::uint32_t> order);
 
     Settings settings_;
@@ -58,6 +60,8 @@ class Billboard final : public Method {
     std::optional<draw::AgeOpacity> byAge_;
     std::optional<draw::PuffTextures> pictures_;
     std::optional<draw::Billboards> quads_;
+    std::optional<draw::GpuDepthOrder> gpuOrder_;  ///< made for the first dust on the GPU
+    gpu::Device* device_ = nullptr;
 };
 
 /// Called by the registry.

@@ -31,6 +31,9 @@ struct Frame {
     Puffs dust;                      ///< the shared dust: the same particles for every method
     const scene::View& view;         ///< the view that this frame is drawn from
     const StageClock& clock;         ///< times the method's stages
+    /// The shared dust in GPU buffers; null if it is on the CPU, or the method does not declare `takesGpuDust`. Then
+    /// `dust` has no particles, only the colour of all; in Method::volume it has them.
+    const GpuPuffs* gpuDust = nullptr;
 };
 
 /// Settings of a run other than the method's parameters.
@@ -71,7 +74,9 @@ class DUSTBENCH_API Method {
     virtual void report(const Frame&, Facts&) const {}
     /// CPU and GPU bytes held by the method, by structure.
     [[nodiscard]] virtual MemoryReport memory() const { return {}; }
-    /// Number of primitives (billboards, voxels, rays …) that the last `draw` submitted to the GPU.
+    /// Number of primitives (billboards, voxels, rays …) that the last `draw` submitted to the GPU; `onePerPuff`: as
+    /// many as the shared dust has puffs, which only the GPU knows.
+    static constexpr std::int64_t onePerPuff = -1;
     [[nodiscard]] virtual std::int64_t primitives() const { return 0; }
     /// Lights that the state after `update` casts on the opaque scene, such as a fire's. At most maximumPointLights.
     [[nodiscard]] virtual std::vector<scene::PointLight> lights() const { return {}; }
@@ -92,6 +97,9 @@ struct MethodInfo {
     std::vector<FactInfo> facts;  ///< facts that `Method::report` reports
     bool drawsPanels = false;     ///< draws the scene's reliefs itself; for other methods the harness draws them flat
     bool takesLights = false;     ///< can draw dust lit by the scene's lights (Lights::onDust)
+    /// Draws the dust from GPU buffers (Frame::gpuDust) with these parameters, or does not use it. For other methods
+    /// the harness reads the buffers back, timed as `upload`. Unset: never.
+    std::function<bool(const ParameterValues&)> takesGpuDust;
     std::function<std::unique_ptr<Method>(const ParameterValues&)> create;
     /// Returns why the method cannot draw this scene (`needs a vehicle`), or an empty text if it can. Unset: draws
     /// every scene.

@@ -13,6 +13,10 @@
 
 namespace dustbench {
 
+namespace gpu {
+class Buffer;
+}  // namespace gpu
+
 /// Gaussian puffs as a structure of arrays; every column has one entry per particle. Colours: linear RGB, already lit.
 /// A puff of peak opacity α and radius r has optical depth τ = −ln(1 − α) through its centre and standard deviation r/2
 /// (kit/maths/transmittance.h).
@@ -33,6 +37,20 @@ struct Puffs {
     [[nodiscard]] glm::vec3 colour(std::size_t i) const {
         return uniformColour ? colourOfAll : glm::vec3{red[i], green[i], blue[i]};
     }
+};
+
+/// The same in GPU buffers of 32-bit words. A column holds the values of a puff side by side, puff after puff.
+struct GpuPuffs {
+    const gpu::Buffer* position = nullptr;  ///< floats: x y z
+    const gpu::Buffer* velocity = nullptr;  ///< floats: x y z
+    const gpu::Buffer* life = nullptr;      ///< floats: age, lifetime
+    const gpu::Buffer* look = nullptr;      ///< floats: radius, peak opacity
+    const gpu::Buffer* serial = nullptr;    ///< unsigned: low word, high word
+    const gpu::Buffer* colour = nullptr;    ///< floats: red green blue; null if all have `colourOfAll`
+    /// Unsigned. Word 0: the number of puffs. Words 1 to 3: its work groups of 256, for an indirect dispatch.
+    const gpu::Buffer* tally = nullptr;
+    std::uint32_t bound = 0;  ///< the number, which only the GPU knows, is at most this
+    glm::vec3 colourOfAll{1};
 };
 
 /// A cube of constant extinction. Level 0 is the whole world; a voxel's edge is the world's / 2^level and its minimum

@@ -29,6 +29,7 @@ MethodInfo describe() {
         .integer("work", 0, 0, 1'000'000, "units", "1000 random numbers each, drawn in `build`: a load of known size")
         .choice("entry", "first", {"first", "second"},
                 "no effect: runs the same method under two names, which a comparison must report as equal");
+    info.takesGpuDust = [](const ParameterValues&) { return true; };
     info.create = [](const ParameterValues& values) {
         return std::make_unique<NullMethod>(static_cast<std::uint64_t>(values.integer("work")));
     };

@@ -240,6 +240,7 @@ MethodInfo describe() {
                           "divided by its square root; empty if no number was requested",
                           {-5, 5}});
     info.facts.push_back({"systems", "systems", FactOver::lastFrame, "particle systems in the file"});
+    info.takesGpuDust = [](const ParameterValues&) { return true; };  // it does not show the shared dust
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<PluginParticles>(systemsOf(values), values.changes("at"));
     };

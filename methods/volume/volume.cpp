@@ -91,6 +91,7 @@ MethodInfo describe() {
                    FactOver::lastFrame,
                    "time since the end of the volume's series, whose last moment stays, after the last frame",
                    {0, 0}}};
+    info.takesGpuDust = [](const ParameterValues&) { return true; };  // it does not show the shared dust
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<Volume>(settingsOf(values), values.choice("storage", keepings));
     };

@@ -74,7 +74,7 @@ void WeightedOit::prepare(const scene::Scene&, const RunSetup&, gpu::Device& dev
 
 void WeightedOit::update(const Frame& frame) {
     const auto timing = frame.clock.measure(Stage::upload);
-    quads_->upload(frame.dust);
+    frame.gpuDust ? quads_->gather(*frame.gpuDust) : quads_->upload(frame.dust);
 }
 
 void WeightedOit::draw(const Frame& frame, gpu::Layer& layer) {
@@ -107,7 +107,7 @@ MemoryReport WeightedOit::memory() const {
 }
 
 std::int64_t WeightedOit::primitives() const {
-    return quads_ ? static_cast<std::int64_t>(quads_->count()) : 0;
+    return quads_ ? quads_->primitives() : 0;
 }
 
 MethodInfo describe() {
@@ -133,6 +133,7 @@ MethodInfo describe() {
         .preset("mode", "paper", {{"accumulation", "rgba16f"}, {"revealage", "r8"}, {"puff", "surface"}});
     info.facts.push_back({"bits_per_pixel", "bit", FactOver::lastFrame,
                           "storage of the intermediate targets per pixel of the picture; of lists, the part in use"});
+    info.takesGpuDust = [](const ParameterValues&) { return true; };
     info.create = [](const ParameterValues& values) {
         return std::make_unique<WeightedOit>(Settings{.weight = values.choice("weight", weights),
                                                       .accumulation = values.choice("accumulation", accumulations),

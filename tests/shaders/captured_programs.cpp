@@ -25,6 +25,7 @@
 #include "methods/kit/draw/opaque_scene.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/gpu/device.h"
+#include "methods/kit/gpu/framebuffer.h"
 #include "methods/kit/gpu/layer.h"
 #include "methods/kit/gpu/program.h"
 #include "methods/kit/gpu/sort/depth_keys.h"
@@ -327,7 +328,38 @@ void sortNumbers(gpu::Device& device) {
     Compaction(device, 3).compact(given, given, 3u, a, count);
 }
 
+/// Dust in GPU buffers, of one colour and of two: its steps, and the methods that take it.
+void drawGpuDust(gpu::Device& device) {
+    const gpu::Texture depth = gpu::Texture::make2D(device, "depth", gpu::Format::depth32F, width, height);
+    gpu::Framebuffer(device, "depth", nullptr, &depth).clearDepth();
+    gpu::Layer layer(device, depth);
+    const StageClock untimed;
+    for (const char* scene : {"plain", "two_soils"}) {
+        bench::World world(scene, "", ParameterValues(bench::worldParameters()), 1);
+        world.moveDustTo(device);
+        world.step();
+        const scene::View view = world.view(width, height);
+        const Frame now{0, bench::stepSeconds, world.state(), Puffs{}, view, untimed, world.gpuDust()};
+        const auto show = [&](const MethodInfo& info, const Values& values) {
+            ParameterValues given(info.parameters);
+            for (const auto& [name, value] : values) given.set(name, value);
+            if (!info.takesGpuDust || !info.takesGpuDust(given)) return;
+            const auto method = info.create(given);
+            method->prepare(world.scene(), {}, device);
+            method->update(now);
+            layer.clear();
+            method->draw(now, layer);
+        };
+        for (const Product& product : products)
+            if (const auto info = std::ranges::find(methods(), product.method, &MethodInfo::id);
+                product.showsDust && info != methods().end())
+                forEachCombination(*info, product.fixed, product.parameters,
+                                   [&](const Values& values) { show(*info, values); });
+    }
+}
+
 void drawEverything(gpu::Device& device) {
+    drawGpuDust(device);
     sortNumbers(device);
     (void)bench::correctnessChecks(device);
     (void)bench::measureRates(device, [] {});

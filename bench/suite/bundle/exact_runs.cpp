@@ -13,6 +13,9 @@ namespace {
 RunSpec specOf(const StoredRun& run) {
     RunSpec spec = specFromKey(run);
     const RunSpec usual;
+    // The dust of a GPU may differ in its last bits: where it was, not where it may be now.
+    if (const auto place = run.provenance.find("dust_on"); place != run.provenance.end())
+        if (const auto known = dustPlaces.find(place->second); known && *known == DustOn::gpu) spec.dustOn = *known;
     spec.threads = usual.threads;
     spec.sync = usual.sync;
     spec.timed = usual.timed;

@@ -49,6 +49,17 @@ TEST(ExactRuns, TheSpecificationIsReadBack) {
     EXPECT_EQ(exact[0].methodHash, "2");
 }
 
+/// The last bits of dust on a GPU may differ: the repetition is where the recorded run was.
+TEST(ExactRuns, DustIsRepeatedWhereItWas) {
+    for (const char* place : {"cpu", "gpu"}) {
+        StoredRun run = runOf(spec(), "1");
+        run.provenance["dust_on"] = place;
+        const auto exact = exactRuns(stored({run}));
+        ASSERT_THAT(exact, SizeIs(1));
+        EXPECT_EQ(exact[0].spec.dustOn == DustOn::gpu, std::string(place) == "gpu");
+    }
+}
+
 TEST(ExactRuns, WhatSimulatesTheSameIsOne) {
     std::vector<StoredRun> list;
     RunSpec same = spec();

@@ -1,6 +1,9 @@
 #include "methods/kit/draw/instance_batch.h"
 
+#include <algorithm>
 #include <utility>
+
+#include "draw_shaders.h"
 
 namespace dustbench::draw {
 namespace {
@@ -28,6 +31,7 @@ InstanceBatch::InstanceBatch(gpu::Device& device, Shape shape)
 std::span<float> InstanceBatch::map(std::size_t count, const InstanceLayout& layout) {
     count_ = count;
     layout_ = layout;
+    gathered_ = false;
     const std::size_t floats = count * layout.floats;
     if (floats == 0) return {};
     if (floats * sizeof(float) > instances_.bytes())
@@ -35,23 +39,59 @@ std::span<float> InstanceBatch::map(std::size_t count, const InstanceLayout& lay
     return {static_cast<float*>(instances_.mapForWriting(floats * sizeof(float))), floats};
 }
 
+void InstanceBatch::gather(const GpuPuffs& dust, const gpu::Buffer* order) {
+    constexpr std::size_t word = sizeof(std::uint32_t), drawnWords = 6;
+    const bool coloured = dust.colour != nullptr;
+    count_ = dust.bound;
+    layout_ = {coloured ? 8u : 5u, coloured};
+    gathered_ = true;
+    std::optional<gpu::Program>& program = coloured ? gatherColoured_ : gather_;
+    if (!program) {
+        std::map<std::string, std::string> definitions{
+            {"SHAPES_AT_ONCE", std::to_string(shape_.atOnce) + "u"},
+            {"INDICES", std::to_string(shape_.corners.size() * shape_.atOnce) + "u"},
+            {"FLOATS", std::to_string(layout_.floats) + "u"}};
+        if (coloured) definitions["COLOURED"] = "";
+        program.emplace(device_, "gather puffs", std::initializer_list<gpu::ShaderFile>{draw_shaders::gather_comp},
+                        definitions);
+    }
+    if (drawn_.bytes() == 0) drawn_ = gpu::Buffer(device_, "drawn puffs", drawnWords * word);
+    drawn_.clear();
+    const std::size_t bytes = count_ * layout_.floats * sizeof(float);
+    if (bytes > instances_.bytes())
+        instances_ = gpu::Buffer(device_, shape_.name, std::max(bytes, 2 * instances_.bytes()));
+    if (bytes == 0) return;
+    program->set("ordered", order ? 1 : 0);
+    instances_.bindStorage(0);
+    dust.position->bindStorage(1);
+    dust.look->bindStorage(2);
+    if (coloured) dust.colour->bindStorage(3);
+    if (order) order->bindStorage(4);
+    dust.tally->bindStorage(5);
+    drawn_.bindStorage(6);
+    program->dispatchIndirect(*dust.tally, word);
+}
+
 void InstanceBatch::unmap() {
     if (count_ > 0) instances_.unmap();
 }
 
 gpu::Program& InstanceBatch::program(const scene::View& view, FragmentPass& fragments) {
-    std::optional<gpu::Program>& made = layout_.coloured ? fragments.ownColours : fragments.oneColour;
+    std::optional<gpu::Program>& onCpu = layout_.coloured ? fragments.ownColours : fragments.oneColour;
+    std::optional<gpu::Program>& onGpu = layout_.coloured ? fragments.ownColoursOnGpu : fragments.oneColourOnGpu;
+    std::optional<gpu::Program>& made = gathered_ ? onGpu : onCpu;
     if (!made) {
         std::map<std::string, std::string> definitions = shape_.definitions;
         definitions["SHAPES_AT_ONCE"] = std::to_string(shape_.atOnce);
         definitions["FLOATS"] = std::to_string(layout_.floats);
         if (layout_.coloured) definitions["COLOURED"] = "";
+        if (gathered_) definitions["COUNT_ON_GPU"] = "";
         definitions.insert(fragments.definitions.begin(), fragments.definitions.end());
         std::vector<gpu::ShaderFile> files = fragments.files;
         files.push_back(shape_.vertex);
         made.emplace(device_, fragments.name, std::span<const gpu::ShaderFile>(files), definitions);
     }
-    made->set("count", static_cast<int>(count_));
+    if (!gathered_) made->set("count", static_cast<int>(count_));
     made->set("eye", glm::vec3(view.camera.eye));
     made->set("worldToEye", view.worldToEye());
     return *made;
@@ -59,6 +99,11 @@ gpu::Program& InstanceBatch::program(const scene::View& view, FragmentPass& frag
 
 void InstanceBatch::drawInstances(const gpu::Program& program, const gpu::DrawState& state) {
     instances_.bindStorage(0);
+    if (gathered_) {
+        drawn_.bindStorage(7);
+        gpu::drawIndexedIndirect(program, vertices_, state, gpu::Primitives::triangles, drawn_, sizeof(std::uint32_t));
+        return;
+    }
     if (shape_.primitives != gpu::Primitives::triangles) {
         gpu::draw(program, vertices_, state, shape_.primitives, static_cast<int>(shape_.vertices * count_));
         return;

@@ -3,7 +3,7 @@
 // Several shapes share one instance, because with one shape per instance software rasterisers run their vertex pipeline
 // once per shape (reports/decisions/0002-billboard-drawing.md). Shaders get the definitions SHAPES_AT_ONCE and FLOATS,
 // and COLOURED if each shape has its own colour. They read `values[]` at storage binding 0; the uniform `count` is the
-// number of shapes.
+// number of shapes. Dust in GPU buffers is gathered into the same values there.
 //
 // Owns: values, corners and programs, on the GPU. Threads: the OpenGL thread.
 #pragma once
@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "methods/contract/method.h"
 #include "methods/contract/view.h"
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/draw_call.h"
@@ -38,7 +39,8 @@ struct FragmentPass {
     const char* name;  ///< used in labels and messages
     std::vector<gpu::ShaderFile> files;
     std::map<std::string, std::string> definitions{};
-    std::optional<gpu::Program> oneColour{}, ownColours{};  ///< compiled on first use
+    std::optional<gpu::Program> oneColour{}, ownColours{};            ///< compiled on first use
+    std::optional<gpu::Program> oneColourOnGpu{}, ownColoursOnGpu{};  ///< for gathered puffs
 };
 
 /// Base class for a pass that draws one kind of shape.
@@ -48,10 +50,19 @@ class DUSTBENCH_API InstanceBatch {
     [[nodiscard]] std::span<float> map(std::size_t count, const InstanceLayout& layout);
     void unmap();
 
+    /// Gathers the puffs on the GPU as x y z radius opacity [red green blue], in their order or that of the indices in
+    /// `order`; only for shapes whose shaders read the number of puffs there (COUNT_ON_GPU).
+    void gather(const GpuPuffs& dust, const gpu::Buffer* order = nullptr);
+
+    /// Of gathered puffs, a bound.
     [[nodiscard]] std::size_t count() const { return count_; }
+    /// For Method::primitives.
+    [[nodiscard]] std::int64_t primitives() const {
+        return gathered_ ? Method::onePerPuff : static_cast<std::int64_t>(count_);
+    }
     /// Binds the values of the shapes mapped last, for a pass that does not draw them.
     void bindValues(std::uint32_t binding) const { instances_.bindStorage(binding); }
-    [[nodiscard]] std::size_t gpuBytes() const { return instances_.bytes() + corners_.bytes(); }
+    [[nodiscard]] std::size_t gpuBytes() const { return instances_.bytes() + corners_.bytes() + drawn_.bytes(); }
 
  protected:
     struct Shape {
@@ -82,6 +93,9 @@ class DUSTBENCH_API InstanceBatch {
     gpu::Device& device_;
     Shape shape_;
     gpu::Buffer instances_, corners_;
+    gpu::Buffer drawn_;  ///< of gathered puffs: their number, then the arguments of the draw call
+    std::optional<gpu::Program> gather_, gatherColoured_;
+    bool gathered_ = false;
     gpu::VertexArray vertices_;
     FragmentPass own_;
     InstanceLayout layout_;

@@ -2,7 +2,13 @@
 layout(std430, binding = 0) readonly buffer Instances {
     float values[];  // x y z radius opacity [red green blue]
 };
+#ifdef COUNT_ON_GPU
+layout(std430, binding = 7) readonly buffer Drawn {
+    int count;
+};
+#else
 uniform int count;
+#endif
 uniform vec3 eye;
 uniform mat4 worldToEye;
 uniform vec4 projection;  // x and y scale, near distance, reach in s

@@ -80,4 +80,12 @@ void drawIndexed(const Program& program, const VertexArray& vertices, const Draw
     finish(state, "indexed draw");
 }
 
+void drawIndexedIndirect(const Program& program, const VertexArray& vertices, const DrawState& state,
+                         Primitives primitives, const Buffer& arguments, std::size_t firstByte) {
+    prepare(program, vertices, state);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, arguments.name().get());
+    glDrawElementsIndirect(modeOf(primitives), GL_UNSIGNED_INT, reinterpret_cast<const void*>(firstByte));
+    finish(state, "indirect draw");
+}
+
 }  // namespace dustbench::gpu

@@ -31,4 +31,9 @@ DUSTBENCH_API void draw(const Program& program, const VertexArray& vertices, con
 DUSTBENCH_API void drawIndexed(const Program& program, const VertexArray& vertices, const DrawState& state,
                                Primitives primitives, int indexCount, int instances = 1);
 
+/// The same with the five numbers of the call (indices, instances, first index, base vertex, base instance) read from
+/// `arguments` when the command runs.
+DUSTBENCH_API void drawIndexedIndirect(const Program& program, const VertexArray& vertices, const DrawState& state,
+                                       Primitives primitives, const Buffer& arguments, std::size_t firstByte);
+
 }  // namespace dustbench::gpu

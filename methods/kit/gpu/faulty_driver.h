@@ -69,6 +69,66 @@ class LostWrites {
     ReplacedFunction<PFNGLDISPATCHCOMPUTEPROC> dispatch_{epoxy_glDispatchCompute, dispatch};
 };
 
+/// Counts the calls that bring data of the GPU to the CPU, and so wait for it.
+class CountedReadBacks {
+ public:
+    CountedReadBacks() { count_ = 0; }
+    [[nodiscard]] static int count() { return count_; }
+
+ private:
+    static inline int count_ = 0;
+    static void buffer(GLuint name, GLintptr first, GLsizeiptr bytes, void* values) {
+        ++count_;
+        ofDriver<PFNGLGETNAMEDBUFFERSUBDATAPROC>("glGetNamedBufferSubData")(name, first, bytes, values);
+    }
+    static void* map(GLuint name, GLintptr first, GLsizeiptr bytes, GLbitfield access) {
+        if (access & GL_MAP_READ_BIT) ++count_;
+        return ofDriver<PFNGLMAPNAMEDBUFFERRANGEPROC>("glMapNamedBufferRange")(name, first, bytes, access);
+    }
+    static void texture(GLuint name, GLint level, GLenum format, GLenum type, GLsizei bytes, void* values) {
+        ++count_;
+        ofDriver<PFNGLGETTEXTUREIMAGEPROC>("glGetTextureImage")(name, level, format, type, bytes, values);
+    }
+    ReplacedFunction<PFNGLGETNAMEDBUFFERSUBDATAPROC> buffer_{epoxy_glGetNamedBufferSubData, buffer};
+    ReplacedFunction<PFNGLMAPNAMEDBUFFERRANGEPROC> map_{epoxy_glMapNamedBufferRange, map};
+    ReplacedFunction<PFNGLGETTEXTUREIMAGEPROC> texture_{epoxy_glGetTextureImage, texture};
+};
+
+/// Counts compute dispatches whose writes no barrier makes visible before the next dispatch. A software device runs
+/// them one after the other and shows no difference.
+class WatchedBarriers {
+ public:
+    WatchedBarriers() { dispatches_ = missing_ = 0, open_ = false; }
+    [[nodiscard]] static int dispatches() { return dispatches_; }
+    [[nodiscard]] static int missing() { return missing_ + (open_ ? 1 : 0); }
+
+ private:
+    static inline int dispatches_ = 0, missing_ = 0;
+    static inline bool open_ = false;
+    static void begin() {
+        ++dispatches_;
+        if (open_) ++missing_;
+        open_ = true;
+    }
+    static void dispatch(GLuint x, GLuint y, GLuint z) {
+        begin();
+        ofDriver<PFNGLDISPATCHCOMPUTEPROC>("glDispatchCompute")(x, y, z);
+    }
+    static void indirect(GLintptr first) {
+        begin();
+        ofDriver<PFNGLDISPATCHCOMPUTEINDIRECTPROC>("glDispatchComputeIndirect")(first);
+    }
+    static void barrier(GLbitfield bits) {
+        constexpr GLbitfield needed =
+            GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT;
+        if ((bits & needed) == needed) open_ = false;
+        ofDriver<PFNGLMEMORYBARRIERPROC>("glMemoryBarrier")(bits);
+    }
+    ReplacedFunction<PFNGLDISPATCHCOMPUTEPROC> dispatch_{epoxy_glDispatchCompute, dispatch};
+    ReplacedFunction<PFNGLDISPATCHCOMPUTEINDIRECTPROC> indirect_{epoxy_glDispatchComputeIndirect, indirect};
+    ReplacedFunction<PFNGLMEMORYBARRIERPROC> barrier_{epoxy_glMemoryBarrier, barrier};
+};
+
 /// Timer queries report the elapsed time, waited for, times a factor.
 class ScaledTimer {
  public:

@@ -10,7 +10,7 @@
 
 namespace dustbench::particles {
 
-class EmitterTracker {
+class DUSTBENCH_API EmitterTracker {
  public:
     /// The wheels' paths through a step that ends in `state`; empty without a vehicle. The first path is extrapolated
     /// from the wheels' velocities.

@@ -18,7 +18,7 @@
 
 namespace dustbench::particles {
 
-class PartList {
+class DUSTBENCH_API PartList {
  public:
     template <typename Kind>
     using List = std::vector<std::unique_ptr<Kind>>;

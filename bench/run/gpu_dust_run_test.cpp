@@ -1,0 +1,162 @@
+// Runs whose dust lives on the GPU: the states, pictures and metrics of the runs with dust on the CPU.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bench/measure/image/flip.h"
+#include "bench/run/dust_place.h"
+#include "bench/run/frame_runner.h"
+#include "bench/run/measured_run.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
+#include "methods/kit/gpu/faulty_driver.h"
+#include "methods/kit/testing/test_folder.h"
+
+namespace dustbench::bench {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+class GpuDustRun : public testing::Test {
+ protected:
+    [[nodiscard]] static RunSpec specOf(const std::string& method, DustOn place, const ParameterTexts& parameters = {},
+                                        const std::string& scene = "plain") {
+        RunSpec spec;
+        spec.method = method;
+        spec.scene = scene;
+        spec.dustOn = place;
+        spec.drive = "figure_of_eight";
+        spec.size = {160, 120};
+        spec.frames = 31;
+        spec.warmup = 2;
+        spec.parameters = canonicalParameters(findMethod(method), parameters);
+        return spec;
+    }
+    [[nodiscard]] RunRecord measured(const RunSpec& spec) const {
+        return measureRun(spec, folder_.path(), {}, [](std::string_view, std::int64_t, std::int64_t) {});
+    }
+    [[nodiscard]] static double numberOf(const RunRecord& record, std::string_view column) {
+        for (const auto& [name, value] : record.summary) {
+            if (name != column) continue;
+            if (const auto* number = std::get_if<double>(&value)) return *number;
+            if (const auto* number = std::get_if<std::int64_t>(&value)) return static_cast<double>(*number);
+        }
+        ADD_FAILURE() << "no " << column;
+        return 0;
+    }
+    [[nodiscard]] static bool hasMethod(std::string_view id) {
+        return std::ranges::any_of(methods(), [id](const MethodInfo& info) { return info.id == id; });
+    }
+
+    TestFolder folder_;
+};
+
+/// One world and runner.
+struct Stepped {
+    Stepped(const RunSpec& spec, gpu::Device& device)
+        : parameters(resolveParameters(findMethod(spec.method), spec.parameters)),
+          world(spec.scene, spec.drive, parameters.world, spec.seed),
+          runner(spec, world, device, parameters.method, false) {
+        (void)placeDust(spec, world, device);
+    }
+
+    ResolvedParameters parameters;
+    World world;
+    FrameRunner runner;
+};
+
+constexpr const char* takers[]{"billboard", "weighted_oit", "null_method"};
+
+TEST_F(GpuDustRun, ReadsNothingBackInAFrame) {
+    gpu::Device device;
+    for (const char* method : takers) {
+        if (!hasMethod(method)) continue;
+        RunSpec spec = specOf(method, DustOn::gpu);
+        spec.sync = Sync::none;
+        Stepped stepped(spec, device);
+        for (int index = -40; index < -2; ++index) stepped.runner.stepWithoutPicture(index);
+        stepped.runner.verifiedStep(-2);
+        const gpu::CountedReadBacks readBacks;
+        for (int index = -1; index < 20; ++index) stepped.runner.frame(index);
+        EXPECT_EQ(readBacks.count(), 0) << method;
+        stepped.runner.drain();
+        EXPECT_EQ(readBacks.count(), 20) << method << ": one number for each frame, afterwards";
+        for (const FrameRecord& frame : stepped.runner.records()) EXPECT_GT(frame.particles, 100) << method;
+    }
+}
+
+TEST_F(GpuDustRun, DrawsThePictureOfDustOnTheCpu) {
+    gpu::Device device;
+    const std::vector<std::pair<std::string, ParameterTexts>> settings{
+        {"billboard", {}},
+        {"billboard", {{"soft", "on"}, {"facing", "viewplane"}}},
+        {"billboard", {{"sort", "none"}}},
+        {"weighted_oit", {}},
+        {"weighted_oit", {{"mode", "paper"}}}};
+    for (const char* scene : {"plain", "two_soils"})
+        for (const auto& [method, parameters] : settings) {
+            if (!hasMethod(method)) continue;
+            std::vector<pictures::Image> shown;
+            for (const DustOn place : {DustOn::cpu, DustOn::gpu}) {
+                Stepped stepped(specOf(method, place, parameters, scene), device);
+                for (int index = -120; index < -1; ++index) stepped.runner.stepWithoutPicture(index);
+                stepped.runner.verifiedStep(-1);
+                stepped.runner.frame(0);
+                shown.push_back(stepped.runner.picture());
+                EXPECT_GT(stepped.runner.records().back().primitives, 500) << method;
+                EXPECT_EQ(stepped.runner.records().back().primitives, stepped.runner.records().back().particles);
+            }
+            const double difference = *flip(preparePicture(shown[0], "CPU"), preparePicture(shown[1], "GPU")).value;
+            EXPECT_LT(difference, 1e-3) << method << " in " << scene;
+        }
+}
+
+TEST_F(GpuDustRun, IsReadBackInTheUploadForOtherMethods) {
+    for (const auto& [method, parameters] : std::vector<std::pair<std::string, ParameterTexts>>{
+             {"billboard", {{"sort", "quicksort"}}}, {"octree_search", {}}}) {
+        if (!hasMethod(method)) continue;
+        const RunRecord cpu = measured(specOf(method, DustOn::cpu, parameters));
+        const RunRecord gpu = measured(specOf(method, DustOn::gpu, parameters));
+        EXPECT_EQ(gpu.provenance.dustOn.place, "gpu");
+        EXPECT_EQ(cpu.provenance.dustOn.place, "cpu");
+        EXPECT_THAT(gpu.provenance.warnings, Contains(HasSubstr("reads the dust back"))) << method;
+        EXPECT_THAT(cpu.provenance.warnings, Not(Contains(HasSubstr("reads the dust back")))) << method;
+        EXPECT_EQ(numberOf(gpu, "particles_median"), numberOf(cpu, "particles_median")) << method;
+        EXPECT_EQ(numberOf(gpu, "primitives_median"), numberOf(cpu, "primitives_median")) << method;
+        EXPECT_NE(runId(gpu.spec), runId(cpu.spec));
+    }
+}
+
+TEST_F(GpuDustRun, IsReplayedAndJudgedAsOnTheCpu) {
+    if (!hasMethod("billboard")) GTEST_SKIP() << "no billboards here";
+    std::vector<RunRecord> runs;
+    for (const DustOn place : {DustOn::cpu, DustOn::gpu}) {
+        RunSpec spec = specOf("billboard", place, {{"soft", "on"}, {"particles", "600"}});
+        spec.judging.emplace();
+        runs.push_back(measured(spec));
+    }
+    EXPECT_GT(numberOf(runs[1], "psnr_db"), 60);
+    for (const char* metric : {"psnr_db", "ssim", "flip", "popping", "gaps", "quads_per_pixel", "volume_error"})
+        EXPECT_NEAR(numberOf(runs[1], metric), numberOf(runs[0], metric), 1e-3 * (1 + numberOf(runs[0], metric)))
+            << metric;
+    EXPECT_THAT(runs[1].provenance.warnings, Not(Contains(HasSubstr("reads the dust back"))));
+}
+
+TEST_F(GpuDustRun, StaysOnTheCpuOfASoftwareDeviceUnlessRequested) {
+    gpu::Device device;
+    if (!device.isSoftware()) GTEST_SKIP() << "a hardware device";
+    Stepped stepped(specOf("null_method", DustOn::automatic), device);
+    EXPECT_EQ(stepped.world.gpuDust(), nullptr);
+}
+
+TEST_F(GpuDustRun, IsRefusedForPartsWithoutAShader) {
+    const RunSpec spec = specOf("null_method", DustOn::gpu, {}, "smoke");
+    EXPECT_THROW((void)measured(spec), InputError);
+    EXPECT_NO_THROW((void)measured(specOf("null_method", DustOn::automatic, {}, "smoke")));
+}
+
+}  // namespace
+}  // namespace dustbench::bench
