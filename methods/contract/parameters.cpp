@@ -108,6 +108,7 @@ std::optional<std::string> canonicalText(const Parameter& parameter, std::string
             return std::nullopt;
         case ParameterType::choice:
             if (std::ranges::find(parameter.choices, text) != parameter.choices.end()) return std::string(text);
+            if (parameter.choices.empty() && parameter.fileExtension.empty()) return std::string(text);
             if (isFile(parameter, text)) return std::filesystem::path(text).lexically_normal().string();
             return std::nullopt;
         case ParameterType::cells: {
@@ -147,6 +148,7 @@ std::string Parameter::allowed() const {
         case ParameterType::choice:
             break;
     }
+    if (choices.empty() && fileExtension.empty()) return "any text";
     std::string text;
     for (const std::string& option : choices) text += (text.empty() ? "" : "|") + option;
     return fileExtension.empty() ? text : text + "|FILE" + fileExtension;

@@ -60,7 +60,7 @@ class DUSTBENCH_API ParameterSet {
     ParameterSet& real(std::string name, double initial, double minimum, double maximum, std::string unit,
                        std::string help);
     ParameterSet& boolean(std::string name, bool initial, std::string help);
-    /// One of several words, without an enumeration.
+    /// One of several words, without an enumeration; no words: any text.
     ParameterSet& choice(std::string name, std::string initial, std::vector<std::string> choices, std::string help);
     template <typename Enumeration>
     ParameterSet& choice(std::string name, std::type_identity_t<Enumeration> initial,

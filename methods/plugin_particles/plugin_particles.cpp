@@ -6,6 +6,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/particles/emitted_light.h"
+#include "methods/kit/particles/event_script.h"
 #include "methods/kit/particles/part_change.h"
 #include "methods/kit/particles/state_hash.h"
 
@@ -82,6 +83,9 @@ void requirePossible(const std::vector<Change>& changes, const std::vector<parti
     }
     for (const Change& change : changes)
         apply(change, names, [&](std::size_t i) -> particles::PartList& { return *copies[i].parts; });
+    std::vector<particles::NamedPartsView> views;
+    for (const particles::NamedParts& each : copies) views.push_back({each.name, *each.parts});
+    particles::requireScript(views);
 }
 
 }  // namespace
@@ -138,6 +142,13 @@ void PluginParticles::applyChanges(const Frame& frame) {
     for (System& system : systems_) makePicture(system);
 }
 
+void PluginParticles::carryEvents() {
+    std::vector<particles::ScriptedSystem> scripted;
+    for (System& system : systems_) scripted.push_back({system.name, system.particles});
+    if (!particles::applyEvents(scripted)) return;
+    for (System& system : systems_) makePicture(system);
+}
+
 void PluginParticles::findLights() {
     lights_.clear();
     for (const System& system : systems_)
@@ -145,21 +156,36 @@ void PluginParticles::findLights() {
             const auto glow = part->glow();
             if (!glow) continue;
             for (const particles::EmittedLight& light :
-                 particles::emittedLights(system.particles.store(), glow->lights, glow->perMetre))
+                 particles::emittedLights(system.particles.store(), glow->lights, glow->perMetre, glow->by))
                 if (light.colour != glm::vec3(0) && lights_.size() < maximumPointLights)
                     lights_.push_back({glm::dvec3(light.position), light.colour});
         }
 }
 
+void PluginParticles::uploadMarks(System& system) {
+    std::vector<particles::Mark> marks;
+    for (const particles::Part* part : system.particles.parts().all())
+        if (const auto mark = part->mark()) marks.push_back(*mark);
+    if (marks.empty() && !system.marks) return;
+    if (!system.marks) system.marks = std::make_unique<MarkPass>(*device_, scene_->lights);
+    system.marks->upload(marks);
+}
+
 void PluginParticles::update(const Frame& frame) {
     applyChanges(frame);
+    carryEvents();
     {
         const auto timing = frame.clock.measure(Stage::simulate);
         for (System& system : systems_)
-            system.particles.update({*scene_, frame.state, frame.stepSeconds, system.fixedCount});
+            system.particles.update({.scene = *scene_,
+                                     .state = frame.state,
+                                     .stepSeconds = frame.stepSeconds,
+                                     .fixedCount = system.fixedCount,
+                                     .view = &frame.view});
         now_ = frame.state;
         findLights();
     }
+    for (System& system : systems_) uploadMarks(system);
     for (System& system : systems_)
         system.picture->upload(
             {system.particles.store(), glm::vec3(frame.view.camera.eye), static_cast<float>(frame.stepSeconds)},
@@ -167,6 +193,8 @@ void PluginParticles::update(const Frame& frame) {
 }
 
 void PluginParticles::draw(const Frame& frame, gpu::Layer& layer) {
+    for (System& system : systems_)
+        if (system.marks) system.marks->draw(frame.view, layer);
     for (System& system : systems_) system.picture->draw(frame.view, layer);
 }
 

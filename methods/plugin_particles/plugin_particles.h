@@ -1,10 +1,10 @@
 // Particle systems assembled from parts: one or several named systems, each with its own simulation.
 //
-// The systems are stepped and drawn in the order of their file, each drawn over the previous ones; they do not
-// interact. With the harness's `particles=N` they share N evenly. With `wheel_dust` the state equals that of the shared
-// dust, bit by bit. Parts and their parameters may change during a run (kit/particles/part_change.h); with several
-// systems, a change's name begins with the system's. Source: Thesis, 3 (design), 4.1 (rendering). Departs: structure of
-// arrays instead of linked lists.
+// The systems are stepped and drawn in the order of their file, each drawn over the previous ones; they interact
+// only by events (kit/particles/event_part.h). With the harness's `particles=N` they share N evenly. With `wheel_dust`
+// the state equals that of the shared dust, bit by bit. Parts and their parameters may change during a run
+// (kit/particles/part_change.h); with several systems, a change's name begins with the system's. Source: Thesis, 3
+// (design), 4.1 (rendering). Departs: structure of arrays instead of linked lists.
 #pragma once
 
 #include <memory>
@@ -15,6 +15,7 @@
 #include "methods/contract/method.h"
 #include "methods/kit/particles/part_toml.h"
 #include "methods/kit/particles/particle_system.h"
+#include "methods/plugin_particles/mark_pass.h"
 #include "methods/plugin_particles/system_picture.h"
 
 namespace dustbench::plugin_particles {
@@ -22,7 +23,7 @@ namespace dustbench::plugin_particles {
 class PluginParticles final : public Method {
  public:
     /// Takes one or more systems. `changes`: sorted by time. Throws InputError if a change will be impossible at its
-    /// time.
+    /// time, or an event names a system that does not exist.
     explicit PluginParticles(std::vector<particles::NamedParts> systems, std::vector<Change> changes = {});
 
     /// Throws InputError if fewer particles are requested than there are systems.
@@ -47,11 +48,14 @@ class PluginParticles final : public Method {
         std::int64_t fixedCount = 0;
         std::string shownAs{};  ///< the render part of `picture`
         std::unique_ptr<SystemPicture> picture{};
+        std::unique_ptr<MarkPass> marks{};  ///< null: no part is drawn
     };
 
     void applyChanges(const Frame& frame);
+    void carryEvents();
     void makePicture(System& system);
     void findLights();
+    void uploadMarks(System& system);
 
     std::vector<particles::NamedParts> parts_;  ///< until `prepare`
     std::int64_t askedFor_ = 0;                 ///< number of particles; 0: as in the file

@@ -6,8 +6,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace dustbench::particles {
+
+struct Hit;
 
 /// Particles per chunk: twelve columns and the scratch of an update are 46 KiB, which fits the second-level cache.
 inline constexpr std::size_t chunkSize = 512;
@@ -29,7 +32,8 @@ struct Chunk {
     float *accelerationX = nullptr, *accelerationY = nullptr, *accelerationZ = nullptr;
     float *airX = nullptr, *airY = nullptr, *airZ = nullptr;  ///< the air's velocity at the particle
     float *luminosityRed = nullptr, *luminosityGreen = nullptr, *luminosityBlue = nullptr;  ///< null without shading
-    std::uint8_t* dead = nullptr;  ///< 1: dies in this update; 0: lives
+    std::uint8_t* dead = nullptr;      ///< 1: dies in this update; 0: lives
+    std::vector<Hit>* hits = nullptr;  ///< receives contacts with surfaces; null: nobody watches them
 
     [[nodiscard]] bool hasColours() const { return red != nullptr; }
 };

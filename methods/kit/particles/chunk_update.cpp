@@ -71,7 +71,10 @@ void drift(Chunk& chunk) {
     WayBegins begins;
     begins.take(chunk, chunk.age, true);
     drift(chunk);
+    std::fill_n(chunk.dead, chunk.count, std::uint8_t{0});
     meetSurfaces(chunk, begins, surfaces);
+    for (std::size_t i = 0; i < chunk.count; ++i)
+        if (chunk.dead[i]) chunk.lifetime[i] = chunk.age[i];  // dies in the next step
 }
 
 /// Everything before the integration.
@@ -129,12 +132,15 @@ void initialiseNewborns(Newborns& newborns, const PartList& parts, const MetSurf
     Chunk& chunk = newborns.chunk;
     parts.position()->place(newborns, step);
     parts.velocity()->launch(newborns, step);
+    for (std::size_t i = 0; i < chunk.count; ++i)
+        if (const glm::vec3& thrown = newborns.emitter[i]->thrown; thrown != glm::vec3(0))
+            newborns.setVelocity(i, thrown + glm::vec3(chunk.velocityX[i], chunk.velocityY[i], chunk.velocityZ[i]));
+    parts.lifetime().giveLifetimes(newborns, step);
     if (surfaces.empty())
         drift(chunk);
     else
         driftAmong(surfaces, chunk);
 
-    parts.lifetime().giveLifetimes(newborns, step);
     shareOfLife(chunk.count, chunk.age, chunk.lifetime, chunk.share);
     parts.colour()->initialise(chunk, step);
     if (!parts.shadings().empty()) shade(chunk, parts, step);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/particles/event.h"
 
 namespace dustbench::particles {
 namespace {
@@ -41,11 +42,14 @@ void meetAll(const Ways& ways, const MetSurfaces& surfaces, float* share, float*
     }
 }
 
+constexpr float never = INFINITY;
+
 struct Way {
     glm::vec3 from, to, velocity;
     float seconds;
     float leftSeconds;
     bool dead = false;
+    float endsIn = never;  ///< seconds from the end of the step to a delayed death; may be negative
 };
 
 /// The first contact on the rest of a path, or none; `by` receives the surface.
@@ -75,13 +79,26 @@ void ride(Way& way, const Touch& touch, const MetSurfaces& surfaces) {
         (void)goTo(way, share, *surfaces.all()[by].surface);
 }
 
+/// A death at the present contact, or later.
+void mourn(Way& way, float delaySeconds) {
+    if (delaySeconds > 0)
+        way.endsIn = std::min(way.endsIn, delaySeconds - way.seconds - way.leftSeconds);
+    else
+        way.dead = true;
+}
+
 /// Continues from a contact at `share` with surface `by`, and from all later contacts.
-void follow(Way& way, float share, std::uint8_t by, const MetSurfaces& surfaces) {
+void follow(Way& way, float share, std::uint8_t by, const MetSurfaces& surfaces, std::vector<Hit>* hits,
+            std::uint64_t serial) {
     for (int contacts = 1; share <= 1; ++contacts) {
         const MetSurface& met = surfaces.all()[by];
         const Touch touch = goTo(way, share, *met.surface);
+        if (hits)
+            hits->push_back({{touch.point, way.velocity, touch.normal, serial},
+                             by + 1,
+                             -glm::dot(way.velocity - touch.velocity, touch.normal)});
         way.velocity = touch.velocity + reflected(way.velocity - touch.velocity, touch.normal, met.contact);
-        way.dead |= met.contact.kills;
+        if (met.contact.kills) mourn(way, met.contact.delaySeconds);
         if (way.dead || contacts == maximumContacts) return ride(way, touch, surfaces);
         way.to = way.from + way.seconds * way.velocity;
         share = meetNext(way, surfaces, &by);
@@ -109,7 +126,7 @@ MetSurfaces::MetSurfaces(const PartList& parts) {
         surfaces_[count_++] = {surface, contact};
     };
     for (const auto& force : parts.forces()) add(force->surface(), force->contact());
-    for (const auto& life : parts.lives()) add(life->surface(), {.kills = true});
+    for (const auto& life : parts.lives()) add(life->surface(), life->contact());
 }
 
 MetSurfaces MetSurfaces::perPartOf(int parts) const {
@@ -132,10 +149,11 @@ void meetSurfaces(Chunk& chunk, const WayBegins& begins, const MetSurfaces& surf
                 {chunk.velocityX[i], chunk.velocityY[i], chunk.velocityZ[i]},
                 begins.seconds[i],
                 leftSeconds};
-        follow(way, first[i], by[i], surfaces);
+        follow(way, first[i], by[i], surfaces, chunk.hits, chunk.hits ? chunk.serial[i] : 0);
         chunk.x[i] = way.to.x, chunk.y[i] = way.to.y, chunk.z[i] = way.to.z;
         chunk.velocityX[i] = way.velocity.x, chunk.velocityY[i] = way.velocity.y, chunk.velocityZ[i] = way.velocity.z;
         if (way.dead) chunk.dead[i] = 1;
+        if (way.endsIn < never) chunk.lifetime[i] = std::min(chunk.lifetime[i], chunk.age[i] + way.endsIn);
     }
 }
 

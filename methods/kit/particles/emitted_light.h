@@ -3,8 +3,9 @@
 //     colour = k·Σ C·α·size³
 //     position = Σ x·L / Σ L,   L = (R + G + B)·α·size³
 //
-// The particles are divided by age into groups with one light each. If the wind bends a fire, the young particles light
-// from its base and the old ones from its tip.
+// The particles are divided into groups with one light each: by age (if the wind bends a fire, the young particles
+// light from its base and the old ones from its tip), by place along the longest edge of their bounding box, or by
+// luminosity, each into equal intervals.
 //
 // Units: m; colours linear RGB in m², the intensity that scene::PointLight takes. Frame: world. Threads: pure; sums are
 // in storage order, in double precision. Source: Thesis, 6.3.
@@ -13,6 +14,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "methods/contract/choices.h"
 #include "methods/contract/volume.h"
 
 namespace dustbench::particles {
@@ -22,9 +24,16 @@ struct EmittedLight {
     glm::vec3 position{0};  ///< unspecified if the colour is 0
 };
 
-/// Returns `parts` lights, the youngest particles first. A particle belongs to light floor(parts·age/lifetime); the
-/// last light includes age = lifetime. `perMetre`: the thesis's constant k. Throws std::invalid_argument if
-/// `parts` is below one.
-[[nodiscard]] DUSTBENCH_API std::vector<EmittedLight> emittedLights(const Puffs& puffs, int parts, float perMetre);
+/// What the groups have in common.
+enum class GlowBy { age, place, luminosity };
+inline constexpr Choices<GlowBy> glowWords{
+    {"age", GlowBy::age}, {"place", GlowBy::place}, {"luminosity", GlowBy::luminosity}};
+
+/// Returns `parts` lights: the youngest particles first, those at the smallest coordinate, or the dimmest. A particle
+/// belongs to light floor(parts·s), where s is age/lifetime, the share of the way along the longest edge, or L/max L;
+/// the last light includes s = 1. `perMetre`: the thesis's constant k. Throws std::invalid_argument if `parts` is below
+/// one.
+[[nodiscard]] DUSTBENCH_API std::vector<EmittedLight> emittedLights(const Puffs& puffs, int parts, float perMetre,
+                                                                    GlowBy by = GlowBy::age);
 
 }  // namespace dustbench::particles

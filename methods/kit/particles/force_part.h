@@ -21,6 +21,12 @@ struct StepStart {
     std::span<const float> velocityX, velocityY, velocityZ;
 };
 
+/// What `settle` notes of contacts with surfaces.
+struct Fates {
+    std::span<std::uint8_t> dead;      ///< by particle: 1 if it dies there, otherwise unchanged
+    std::span<std::vector<Hit>> hits;  ///< by chunk; empty: nobody watches them
+};
+
 class ForcePart : public Part {
  public:
     using Part::Part;
@@ -39,7 +45,7 @@ class ForcePart : public Part {
     /// True: after all particles have moved as if there were no surfaces, `settle` determines where they end, from the
     /// start of the step, without passing surfaces. A system has at most one such part.
     [[nodiscard]] virtual bool settles() const { return false; }
-    virtual void settle(ParticleStore&, const StepStart&, const MetSurfaces&, const Step&) {}
+    virtual void settle(ParticleStore&, const StepStart&, const Fates&, const MetSurfaces&, const Step&) {}
 
     /// The surface that particles cannot pass, applied between `push` and `touch`; null: none.
     [[nodiscard]] virtual const Surface* surface() const { return nullptr; }

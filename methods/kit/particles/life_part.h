@@ -23,10 +23,11 @@ class LifePart : public Part {
 
     /// A surface at which particles die; null: none.
     [[nodiscard]] virtual const Surface* surface() const { return nullptr; }
+    [[nodiscard]] virtual Contact contact() const { return {.kills = true}; }
 
     /// The mean lifetime, if this part sets lifetimes.
     [[nodiscard]] virtual std::optional<double> meanLifetimeSeconds() const { return std::nullopt; }
-    /// Writes `lifetime`; implemented only by parts that set lifetimes.
+    /// Writes `lifetime`, with the position and velocity at birth; implemented only by parts that set lifetimes.
     virtual void giveLifetimes(Newborns&, const Step&) const {}
 };
 

@@ -113,5 +113,27 @@ TEST(EmittedLight, PartsTogetherGiveAsMuchAsOne) {
     EXPECT_EQ(emittedLights(Puffs{}, 2, 1)[1].colour, glm::vec3(0));
 }
 
+TEST(EmittedLight, GroupsByPlaceAndByLuminosityAreTheThesissSums) {
+    // Two heaps: 3 dim particles near x = −4, 2 bright ones near x = 4; the box is longest along x.
+    const std::vector<float> x{-4, -4.5f, -3.5f, 4, 4.5f}, y{0, 1, 2, 0, 1}, z(5, 0), zero(5, 0), one(5, 1);
+    const std::vector<float> radius{1, 1, 1, 2, 2}, opacity(5, 0.5f);
+    const std::vector<std::uint64_t> serial{0, 1, 2, 3, 4};
+    Puffs puffs;
+    puffs.serial = serial, puffs.x = x, puffs.y = y, puffs.z = z;
+    puffs.velocityX = puffs.velocityY = puffs.velocityZ = zero;
+    puffs.age = zero, puffs.lifetime = one, puffs.radius = radius, puffs.opacity = opacity;
+    puffs.uniformColour = true, puffs.colourOfAll = {1, 0.5f, 0.5f};
+    for (const GlowBy by : {GlowBy::place, GlowBy::luminosity}) {
+        const auto lights = emittedLights(puffs, 2, 1, by);
+        EXPECT_EQ(lights[0].colour, glm::vec3(1.5f, 0.75f, 0.75f));
+        EXPECT_EQ(lights[0].position, glm::vec3(-4, 1, 0));
+        EXPECT_EQ(lights[1].colour, glm::vec3(8, 4, 4));
+        EXPECT_EQ(lights[1].position, glm::vec3(4.25f, 0.5f, 0));
+    }
+    EXPECT_EQ(emittedLights(puffs, 2, 1)[1].colour, glm::vec3(0));  // all are young
+    EXPECT_EQ(emittedLights(puffs, 4, 1, GlowBy::place)[1].colour, glm::vec3(0));
+    EXPECT_EQ(emittedLights(Puffs{}, 2, 1, GlowBy::place)[1].colour, glm::vec3(0));
+}
+
 }  // namespace
 }  // namespace dustbench::particles

@@ -1,8 +1,8 @@
-// A part: one aspect of a particle system, of one of nine kinds; created by name, with declared parameters.
+// A part: one aspect of a particle system, of one of ten kinds; created by name, with declared parameters.
 //
 // A new part is one file, parts/KIND/NAME.cpp, with a function `PartInfo describe()` in the namespace
 // dustbench::particles::parts::KIND::NAME; the table is generated from the files. A new kind is a header next to this
-// one. Source: Thesis, 3.1.3 (the plugins).
+// one. Source: Thesis, 3.1.3 (the plugins). Departs: the kind event is ours.
 #pragma once
 
 #include <array>
@@ -12,15 +12,16 @@
 #include <string_view>
 
 #include "methods/contract/parameters.h"
+#include "methods/kit/particles/mark.h"
 
 namespace dustbench::particles {
 
-/// A system has one part of each of the first six kinds, and a list of each of the last three.
-enum class PartKind { emission, position, velocity, colour, size, render, life, shading, force };
+/// A system has one part of each of the first six kinds, and a list of each of the last four.
+enum class PartKind { emission, position, velocity, colour, size, render, life, shading, force, event };
 
 /// Names of the kinds in files.
-inline constexpr std::array<std::string_view, 9> partKindNames{"emission", "position", "velocity", "colour", "size",
-                                                               "render",   "life",     "shading",  "force"};
+inline constexpr std::array<std::string_view, 10> partKindNames{"emission", "position", "velocity", "colour", "size",
+                                                                "render",   "life",     "shading",  "force",  "event"};
 
 [[nodiscard]] constexpr std::string_view kindName(PartKind kind) {
     return partKindNames[static_cast<std::size_t>(kind)];
@@ -44,6 +45,9 @@ class DUSTBENCH_API Part {
 
     /// True: the part works only with a position that is a lattice (PositionPart::lattice).
     [[nodiscard]] virtual bool needsLattice() const { return false; }
+
+    /// What the part looks like; empty: it is not drawn.
+    [[nodiscard]] virtual std::optional<Mark> mark() const { return std::nullopt; }
 
     /// Continues from `before`, which this part replaces in a running system. A part whose state persists between steps
     /// (an accumulator) copies the state of a part of the same class.

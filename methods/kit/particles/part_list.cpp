@@ -60,6 +60,9 @@ void PartList::set(std::unique_ptr<Part> part) {
         case PartKind::force:
             forces_.push_back(as<ForcePart>(std::move(part)));
             return;
+        case PartKind::event:
+            events_.push_back(as<EventPart>(std::move(part)));
+            return;
     }
 }
 
@@ -67,6 +70,7 @@ void PartList::setInList(PartKind kind, std::size_t index, std::unique_ptr<Part>
     if (kind == PartKind::life) return replaceOrRemove(lives_, index, std::move(part));
     if (kind == PartKind::shading) return replaceOrRemove(shadings_, index, std::move(part));
     if (kind == PartKind::force) return replaceOrRemove(forces_, index, std::move(part));
+    if (kind == PartKind::event) return replaceOrRemove(events_, index, std::move(part));
     throw std::logic_error("a part of kind '" + std::string(kindName(kind)) + "' is not in a list");
 }
 
@@ -93,6 +97,7 @@ std::vector<Part*> PartList::mutableParts() const {
     for (const auto& part : lives_) parts.push_back(part.get());
     for (const auto& part : shadings_) parts.push_back(part.get());
     for (const auto& part : forces_) parts.push_back(part.get());
+    for (const auto& part : events_) parts.push_back(part.get());
     return parts;
 }
 

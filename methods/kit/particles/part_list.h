@@ -1,4 +1,4 @@
-// The parts of one system: six single parts and three lists. They may be replaced between updates.
+// The parts of one system: six single parts and four lists. They may be replaced between updates.
 //
 // Owns: the parts. Source: Thesis, 3.1.3.
 #pragma once
@@ -8,6 +8,7 @@
 
 #include "methods/kit/particles/colour_part.h"
 #include "methods/kit/particles/emission_part.h"
+#include "methods/kit/particles/event_part.h"
 #include "methods/kit/particles/force_part.h"
 #include "methods/kit/particles/life_part.h"
 #include "methods/kit/particles/position_part.h"
@@ -41,14 +42,16 @@ class DUSTBENCH_API PartList {
     [[nodiscard]] List<LifePart>& lives() { return lives_; }
     [[nodiscard]] List<ShadingPart>& shadings() { return shadings_; }
     [[nodiscard]] List<ForcePart>& forces() { return forces_; }
+    [[nodiscard]] List<EventPart>& events() { return events_; }
     [[nodiscard]] const List<LifePart>& lives() const { return lives_; }
     [[nodiscard]] const List<ShadingPart>& shadings() const { return shadings_; }
     [[nodiscard]] const List<ForcePart>& forces() const { return forces_; }
+    [[nodiscard]] const List<EventPart>& events() const { return events_; }
 
     /// The part that sets lifetimes.
     [[nodiscard]] const LifePart& lifetime() const;
     /// Every part, by kind in the order of PartKind.
-    [[nodiscard]] std::vector<const Part*> all() const;
+    [[nodiscard]] DUSTBENCH_API std::vector<const Part*> all() const;
     /// Why the list is not a complete system (`no part of kind 'size'`); empty if it is.
     [[nodiscard]] std::string missing() const;
 
@@ -64,6 +67,7 @@ class DUSTBENCH_API PartList {
     List<LifePart> lives_;
     List<ShadingPart> shadings_;
     List<ForcePart> forces_;
+    List<EventPart> events_;
 };
 
 }  // namespace dustbench::particles

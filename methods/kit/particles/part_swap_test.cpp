@@ -16,6 +16,7 @@ constexpr int count = 10'000;
 void put(PartList& parts, PartKind kind, const std::string& name) {
     if (kind == PartKind::force) parts.forces().clear();
     if (kind == PartKind::shading) parts.shadings().clear();
+    if (kind == PartKind::event) parts.events().clear();
     if (kind == PartKind::life) {
         parts.lives().clear();
         if (name != "lifetime")
@@ -80,7 +81,7 @@ TEST_P(PartSwap, OfAnyTwoOfAKindKeepsTheStateFiniteAndItsHistoryRepeats) {
 INSTANTIATE_TEST_SUITE_P(EveryKind, PartSwap,
                          testing::Values(PartKind::emission, PartKind::position, PartKind::velocity, PartKind::colour,
                                          PartKind::size, PartKind::render, PartKind::life, PartKind::shading,
-                                         PartKind::force),
+                                         PartKind::force, PartKind::event),
                          [](const auto& kind) { return std::string(kindName(kind.param)); });
 
 }  // namespace

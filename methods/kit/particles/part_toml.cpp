@@ -174,7 +174,11 @@ std::vector<NamedParts> systemsFromText(std::string_view text, std::string name)
 }
 
 std::unique_ptr<PartList> partsFromFile(const std::filesystem::path& file) {
-    return onlySystem(systemsFromFile(file), file.string());
+    auto parts = onlySystem(systemsFromFile(file), file.string());
+    if (!parts->events().empty())
+        throw InputError(file.string() +
+                         ": got a system with events, allowed here: none; they need the method plugin_particles");
+    return parts;
 }
 
 std::unique_ptr<PartList> partsFromText(std::string_view text, std::string name) {

@@ -27,9 +27,9 @@ struct NamedParts {
 /// `name` is the file name used in messages; paths are relative to the working directory.
 [[nodiscard]] DUSTBENCH_API std::vector<NamedParts> systemsFromText(std::string_view text, std::string name);
 
-/// Throws as above, and if the file contains several systems.
+/// Throws as above, and if the file contains several systems, or events.
 [[nodiscard]] std::unique_ptr<PartList> partsFromFile(const std::filesystem::path& file);
-/// `name` is the file name used in messages.
+/// The same, events allowed. `name` is the file name used in messages.
 [[nodiscard]] std::unique_ptr<PartList> partsFromText(std::string_view text, std::string name);
 
 /// Every part with all its parameters; reading the text gives the same parts.

@@ -10,10 +10,12 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/maths/hash.h"
+#include "methods/kit/maths/philox.h"
 #include "methods/kit/memory/available_memory.h"
 #include "methods/kit/parallel/for_each_block.h"
 #include "methods/kit/particles/chunk_update.h"
 #include "methods/kit/particles/emitter_tracker.h"
+#include "methods/kit/particles/event_record.h"
 #include "methods/kit/particles/newborn_block.h"
 #include "methods/kit/particles/noted_particles.h"
 #include "methods/kit/particles/part_toml.h"
@@ -61,8 +63,11 @@ struct ParticleSystem::State {
     /// The same with a force that settles particles.
     void liveLinked(ForcePart& settling, const MetSurfaces& surfaces, const Step& step);
     void bury(std::span<const std::uint32_t> holes);
-    void giveBirth(const Births& births, std::span<const Emitter> emitters, std::span<const std::uint32_t> holes,
-                   const MetSurfaces& surfaces, const Step& step);
+    /// Returns the holes that remain.
+    [[nodiscard]] std::span<const std::uint32_t> giveBirth(const Births& births, std::span<const Emitter> emitters,
+                                                           std::span<const std::uint32_t> holes,
+                                                           const MetSurfaces& surfaces, const Step& step);
+    void giveBirths(std::span<const std::uint32_t> holes, const MetSurfaces& surfaces, const Step& step);
 
     std::unique_ptr<PartList> parts;
     std::uint64_t seed;
@@ -73,6 +78,15 @@ struct ParticleSystem::State {
     ParticleStore store{ledger};
     NotedParticles deaths{ledger};
     std::optional<LinkedStart> start;  ///< only if a force settles particles
+    EventRecord record;
+    /// Births that events of the last step started.
+    struct Started {
+        std::int64_t count;
+        std::vector<Emitter> emitters;
+    };
+    std::vector<Started> started;
+    bool emits = true;
+    std::uint32_t steps = 0;
     LedgerVector<std::uint32_t> survivors{ledger.account("particle deaths")};
 };
 
@@ -97,6 +111,7 @@ void ParticleSystem::State::live(const MetSurfaces& surfaces, const Step& step) 
             ChunkScratch scratch;
             Chunk chunk = store.chunk(first, count);
             scratch.lend(chunk, !parts->shadings().empty());
+            chunk.hits = record.hitsOfChunk(first / chunkSize);
             updateChunk(chunk, *parts, surfaces, step);
             deaths.note(first / chunkSize, chunk.dead, count);
         },
@@ -121,7 +136,7 @@ void ParticleSystem::State::liveLinked(ForcePart& settling, const MetSurfaces& s
             fewChunks);
     };
     forEachChunk([&](Chunk& chunk) { advanceChunk(chunk, *parts, step); });
-    settling.settle(store, start->all(), surfaces, step);
+    settling.settle(store, start->all(), {dead, record.hitsOfChunks()}, surfaces, step);
     forEachChunk([&](Chunk& chunk) {
         for (const auto& force : parts->forces()) force->touch(chunk, step);
         deaths.note(chunk.first / chunkSize, chunk.dead, chunk.count);
@@ -151,13 +166,14 @@ void ParticleSystem::State::bury(std::span<const std::uint32_t> holes) {
 }
 
 /// Newborns fill the holes of dead particles first, in order; the rest are appended.
-void ParticleSystem::State::giveBirth(const Births& births, std::span<const Emitter> emitters,
-                                      std::span<const std::uint32_t> holes, const MetSurfaces& surfaces,
-                                      const Step& step) {
+std::span<const std::uint32_t> ParticleSystem::State::giveBirth(const Births& births, std::span<const Emitter> emitters,
+                                                                std::span<const std::uint32_t> holes,
+                                                                const MetSurfaces& surfaces, const Step& step) {
     const std::size_t born = static_cast<std::size_t>(births.count);
     const std::size_t before = store.size();
     requireRoom(static_cast<double>(before) + static_cast<double>(births.count));
     if (born > holes.size()) store.resize(before + born - holes.size());
+    record.beginBirths(born, NewbornBlock::size);
     parallel::forEachBlock(
         born, NewbornBlock::size,
         [&](std::size_t first, std::size_t count) {
@@ -165,7 +181,9 @@ void ParticleSystem::State::giveBirth(const Births& births, std::span<const Emit
             NewbornBlock block;
             Newborns newborns = block.newborns(first, count, nextSerial + first, births, emitters, step.seconds);
             scratch.lend(newborns.chunk, !parts->shadings().empty());
+            newborns.chunk.hits = record.hitsOfBlock(first / NewbornBlock::size);
             initialiseNewborns(newborns, *parts, surfaces, step);
+            record.noteBirths(first, newborns);
             for (std::size_t i = 0; i < count; ++i) {
                 const std::size_t k = first + i;
                 store.put(newborns.chunk, i, k < holes.size() ? holes[k] : before + (k - holes.size()));
@@ -173,7 +191,19 @@ void ParticleSystem::State::giveBirth(const Births& births, std::span<const Emit
         },
         fewChunks);
     nextSerial += born;
-    if (born < holes.size()) bury(holes.subspan(born));
+    return holes.subspan(std::min(born, holes.size()));
+}
+
+/// Those that events have started come first.
+void ParticleSystem::State::giveBirths(std::span<const std::uint32_t> holes, const MetSurfaces& surfaces,
+                                       const Step& step) {
+    const auto own = parts->position()->emitters(step);
+    for (const auto& [count, emitters] : started)
+        if (const auto at = emitters.empty() ? own : std::span<const Emitter>(emitters); !at.empty())
+            holes = giveBirth({count, 0, 0}, at, holes, surfaces, step);
+    started.clear();
+    if (!own.empty() && emits) holes = giveBirth(parts->emission()->births(step), own, holes, surfaces, step);
+    bury(holes);
 }
 
 ParticleSystem ParticleSystem::load(const std::filesystem::path& file, std::uint64_t seed) {
@@ -207,7 +237,8 @@ void ParticleSystem::update(const Surroundings& surroundings) {
                     fixedRate,
                     s.tracker.follow(surroundings.scene, surroundings.state, surroundings.stepSeconds),
                     surroundings.particlesPerPuff,
-                    parts.position()->lattice()};
+                    parts.position()->lattice(),
+                    surroundings.view};
 
     const auto oneColour = parts.colour()->colourOfAll(step);
     if (oneColour) s.store.colourOfAll = *oneColour;
@@ -215,15 +246,17 @@ void ParticleSystem::update(const Surroundings& surroundings) {
 
     for (const auto& force : s.parts->forces()) force->begin(step, s.store);
     for (const auto& life : s.parts->lives()) life->begin(step);
+    s.record.begin(parts, step, s.store);
     const MetSurfaces surfaces(parts);
     if (ForcePart* settling = settlingPart(parts))
         s.liveLinked(*settling, surfaces, step);
     else
         s.live(surfaces, step);
     const auto holes = s.deaths.collect();
-    const auto emitters = parts.position()->emitters(step);
-    const Births births = emitters.empty() ? Births{} : parts.emission()->births(step);
-    s.giveBirth(births, emitters, holes, surfaces, step);
+    s.record.noteMoved(s.store, holes, static_cast<float>(step.seconds));
+    s.giveBirths(holes, surfaces, step);
+    s.record.end(parts, step.seconds);
+    ++s.steps;
 }
 
 std::string ParticleSystem::toToml() const {
@@ -250,6 +283,23 @@ void ParticleSystem::replaceParts(std::unique_ptr<PartList> parts) {
 
 double ParticleSystem::meanLifetimeSeconds() const {
     return *state_->parts->lifetime().meanLifetimeSeconds();
+}
+
+std::span<const std::vector<Event>> ParticleSystem::events() const {
+    return state_->record.events();
+}
+
+float ParticleSystem::chanceOf(std::uint64_t serial, std::uint32_t eventPart) const {
+    constexpr std::uint32_t partsOfAStep = 64;
+    return maths::uniform4(state_->seed, eventStream, serial, partsOfAStep * state_->steps + eventPart)[0];
+}
+
+void ParticleSystem::start(std::int64_t count, std::vector<Emitter> emitters) {
+    state_->started.push_back({count, std::move(emitters)});
+}
+
+void ParticleSystem::emit(bool emits) {
+    state_->emits = emits;
 }
 
 std::uint64_t ParticleSystem::stateHash() const {

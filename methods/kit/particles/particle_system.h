@@ -10,6 +10,7 @@
 #include <string>
 
 #include "methods/contract/scene.h"
+#include "methods/contract/view.h"
 #include "methods/kit/particles/part_list.h"
 #include "methods/kit/particles/particle_store.h"
 
@@ -25,6 +26,8 @@ struct Surroundings {
     /// Particles born instead of each one, evenly in time; 1 or more. (Above 1: the ground truth's `continuum`, whose
     /// particles count for proportionally less.)
     std::int64_t particlesPerPuff = 1;
+    /// Of the camera; null for dust that several methods share.
+    const scene::View* view = nullptr;
 };
 
 class DUSTBENCH_API ParticleSystem {
@@ -53,6 +56,15 @@ class DUSTBENCH_API ParticleSystem {
     /// continues as if nothing had happened. Throws InputError if the list is incomplete.
     void replaceParts(std::unique_ptr<PartList> parts);
     [[nodiscard]] double meanLifetimeSeconds() const;
+    /// By event part: the events of the last update.
+    [[nodiscard]] std::span<const std::vector<Event>> events() const;
+    /// A number in [0, 1) for an event of the last update: by chance, from the seed.
+    [[nodiscard]] float chanceOf(std::uint64_t serial, std::uint32_t eventPart) const;
+    /// `count` births at the beginning of the next update, shared evenly by `emitters`; empty: those of the position
+    /// part.
+    void start(std::int64_t count, std::vector<Emitter> emitters);
+    /// False: no births of the emission from the next update on; its clock stands still.
+    void emit(bool emits);
     /// Hash of every particle's state, in storage order.
     [[nodiscard]] std::uint64_t stateHash() const;
     [[nodiscard]] MemoryReport memory() const;

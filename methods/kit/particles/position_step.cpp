@@ -35,14 +35,18 @@ void PositionStep::begin(const SpringNumbers& numbers, const LatticeLinks& links
 
 /// Contacts on the paths of a substep. Only particles with a contact get its position and velocity: others keep theirs,
 /// which are not rounded.
-void PositionStep::meet(const MetSurfaces& surfaces, double h, float leftSeconds) {
+void PositionStep::meet(const MetSurfaces& surfaces, double h, float leftSeconds, ParticleStore& store,
+                        const Fates& fates) {
     parallel::forEachBlock(points_.size(), chunkSize, [&](std::size_t first, std::size_t count) {
         WayBegins begins;
         std::array<std::array<float, chunkSize>, 6> moved;
-        std::array<std::uint8_t, chunkSize> dead{};
         Chunk chunk;
         chunk.count = count;
-        chunk.dead = dead.data();
+        chunk.age = &store.age[first];
+        chunk.lifetime = &store.lifetime[first];
+        chunk.serial = &store.serial[first];
+        chunk.dead = &fates.dead[first];
+        if (!fates.hits.empty()) chunk.hits = &fates.hits[first / chunkSize];
         std::size_t next = 0;
         for (float** column : {&chunk.x, &chunk.y, &chunk.z, &chunk.velocityX, &chunk.velocityY, &chunk.velocityZ})
             *column = moved[next++].data();
@@ -65,12 +69,12 @@ void PositionStep::meet(const MetSurfaces& surfaces, double h, float leftSeconds
     });
 }
 
-void PositionStep::run(const SpringNumbers& numbers, const Linked& linked, const StepStart& start,
-                       const MetSurfaces& surfaces, double stepSeconds, ParticleStore& store) {
+void PositionStep::run(const SpringNumbers& numbers, const Linked& linked, const Way& way, ParticleStore& store,
+                       const Fates& fates) {
     const LatticeLinks& links = linked.links;
-    const MetSurfaces perSubstep = surfaces.perPartOf(numbers.substeps);
-    begin(numbers, links, start, stepSeconds, store);
-    const double h = stepSeconds / numbers.substeps;
+    const MetSurfaces perSubstep = way.surfaces.perPartOf(numbers.substeps);
+    begin(numbers, links, way.start, way.stepSeconds, store);
+    const double h = way.stepSeconds / numbers.substeps;
     const double gamma = numbers.damping / (numbers.stiffness * h);
     const auto solve = [&](const Link& link) {
         Point &a = points_[link.a], &b = points_[link.b];
@@ -99,7 +103,7 @@ void PositionStep::run(const SpringNumbers& numbers, const Linked& linked, const
         links.forEach(solve);
         forEachPoint(points_.size(),
                      [&](std::size_t i) { points_[i].velocity = (points_[i].x - points_[i].before) / h; });
-        if (!surfaces.empty()) meet(perSubstep, h, left);
+        if (!perSubstep.empty()) meet(perSubstep, h, left, store, fates);
     }
     forEachPoint(points_.size(), [&](std::size_t i) {
         const glm::vec3 x(points_[i].x), v(points_[i].velocity);

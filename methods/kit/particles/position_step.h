@@ -36,10 +36,15 @@ struct Linked {
 
 class PositionStep {
  public:
-    /// Moves all particles of `store` from `start`. Every substep ends at the first surface; a particle killed there
-    /// lives.
-    void run(const SpringNumbers& numbers, const Linked& linked, const StepStart& start, const MetSurfaces& surfaces,
-             double stepSeconds, ParticleStore& store);
+    struct Way {
+        const StepStart& start;
+        const MetSurfaces& surfaces;
+        double stepSeconds;
+    };
+    /// Moves all particles of `store`. Every substep ends at the first surface. A particle that dies there takes part
+    /// until the end of the step.
+    void run(const SpringNumbers& numbers, const Linked& linked, const Way& way, ParticleStore& store,
+             const Fates& fates);
 
     [[nodiscard]] std::size_t bytes() const { return points_.capacity() * sizeof(Point); }
 
@@ -52,7 +57,7 @@ class PositionStep {
     void begin(const SpringNumbers& numbers, const LatticeLinks& links, const StepStart& start, double stepSeconds,
                const ParticleStore& store);
 
-    void meet(const MetSurfaces& surfaces, double h, float leftSeconds);
+    void meet(const MetSurfaces& surfaces, double h, float leftSeconds, ParticleStore& store, const Fates& fates);
 
     std::vector<Point> points_;
 };

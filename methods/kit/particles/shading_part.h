@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "methods/kit/particles/chunk.h"
+#include "methods/kit/particles/emitted_light.h"
 #include "methods/kit/particles/part.h"
 #include "methods/kit/particles/step.h"
 
@@ -13,8 +14,9 @@ namespace dustbench::particles {
 
 /// The light that a system's particles emit (emitted_light.h).
 struct Glow {
-    int lights;      ///< number of groups by age
+    int lights;      ///< number of groups
     float perMetre;  ///< the thesis's constant k
+    GlowBy by = GlowBy::age;
 };
 
 class ShadingPart : public Part {

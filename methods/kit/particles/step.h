@@ -8,6 +8,7 @@
 #include <span>
 
 #include "methods/contract/scene.h"
+#include "methods/contract/view.h"
 
 namespace dustbench::particles {
 
@@ -18,7 +19,8 @@ struct Emitter {
     glm::vec3 from{0}, to{0};                  ///< at the start and the end of the step
     glm::vec3 velocityFrom{0}, velocityTo{0};  ///< velocity of the carrier
     glm::vec3 forward{1, 0, 0}, up{0, 1, 0}, right{0, 0, 1};
-    float speed = 0;  ///< along `forward`, m/s
+    float speed = 0;      ///< along `forward`, m/s
+    glm::vec3 thrown{0};  ///< added to the velocity of every newborn: that of an event
 
     /// From the emitter's frame (forward, up, right) to the world.
     [[nodiscard]] glm::vec3 toWorld(const glm::vec3& local) const {
@@ -35,6 +37,7 @@ struct Step {
     std::span<const Emitter> wheels;    ///< empty without a vehicle
     std::int64_t particlesPerPuff = 1;  ///< factor on the number of births, at any rate
     const Lattice* lattice = nullptr;   ///< that the particles form; null: none
+    const scene::View* view = nullptr;  ///< of the camera; null: none
 };
 
 /// Each use of random numbers has its own stream, so that swapping one part leaves the other parts' numbers unchanged.
@@ -44,7 +47,8 @@ enum RandomStream : std::uint32_t {
     lifeStream,
     sizeStream,
     colourStream,
-    windStream
+    windStream,
+    eventStream
 };
 
 }  // namespace dustbench::particles

@@ -29,7 +29,8 @@ struct Ways {
 struct Contact {
     float restitution = 1;
     float friction = 0;
-    bool kills = false;  ///< the particle dies at the contact
+    bool kills = false;      ///< the particle dies
+    float delaySeconds = 0;  ///< from the contact to that death, which becomes the end of its lifetime
 };
 
 /// One path, and its share at which it hits a surface.

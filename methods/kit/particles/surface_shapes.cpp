@@ -145,11 +145,20 @@ void declareSurface(ParameterSet& set) {
     set.boolean("on_ground", true, "for a scene: includes its ground")
         .boolean("on_solids", true, "for a scene: includes its solids")
         .boolean("on_vehicle", true, "for a scene: includes the vehicle and its wheels");
+    declareMark(set, "a sphere or a disc; of a half-space the disc of its radius; others are not drawn",
+                {0.5, 0.5, 0.5});
 }
 
 SurfaceNumbers surfaceNumbers(const ParameterValues& values) {
     return {values.choice("shape", surfaceShapes), vectorOf(values, "place", spaceAxes), directionOf(values, "normal"),
             static_cast<float>(values.real("radius_metres"))};
+}
+
+std::optional<Mark> markOfSurface(const ParameterValues& values) {
+    const SurfaceNumbers s = surfaceNumbers(values);
+    if (s.shape == SurfaceShape::mesh || s.shape == SurfaceShape::scene) return std::nullopt;
+    const MarkShape shape = s.shape == SurfaceShape::sphere ? MarkShape::ball : MarkShape::disc;
+    return markOf(values, {shape, s.place, s.normal, s.radiusMetres});
 }
 
 std::unique_ptr<Surface> makeBall(const glm::vec3& centre, float radiusMetres) {

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "methods/contract/parameters.h"
+#include "methods/kit/particles/mark.h"
 #include "methods/kit/particles/surface.h"
 
 namespace dustbench::particles {
@@ -25,10 +26,12 @@ struct SurfaceNumbers {
     float radiusMetres;
 };
 
-/// Declares `shape`, `place`, `normal`, `radius_metres`, those of a mesh and those of a scene.
+/// Declares `shape`, `place`, `normal`, `radius_metres`, those of a mesh, of a scene and of the drawing.
 void declareSurface(ParameterSet& set);
 /// Throws InputError for a normal of zero length.
 [[nodiscard]] SurfaceNumbers surfaceNumbers(const ParameterValues& values);
+/// What the surface looks like, if it is to be drawn.
+[[nodiscard]] std::optional<Mark> markOfSurface(const ParameterValues& values);
 /// A ball, hit from outside only.
 [[nodiscard]] std::unique_ptr<Surface> makeBall(const glm::vec3& centre, float radiusMetres);
 /// Makes the surface. A half-space or a sphere is hit from outside only; particles inside may leave. A disc or a mesh

@@ -61,7 +61,9 @@ inline void advance(ParticleSystem& system, const scene::Scene& scene, int steps
                     std::int64_t fixedCount = 0, double stepSeconds = 1.0 / 60, int firstStep = 0) {
     for (int i = firstStep + 1; i <= firstStep + steps; ++i) {
         const scene::SceneState state = drivingStraight(i * stepSeconds, speed);
-        system.update({scene, state, stepSeconds, fixedCount});
+        scene::View view;  // of everything, from high above
+        view.camera.eye = {0, 5000, 1};
+        system.update({scene, state, stepSeconds, fixedCount, 1, &view});
     }
 }
 

@@ -23,6 +23,7 @@ class Attractor final : public ForcePart {
     explicit Attractor(const ParameterValues& values);
 
     void push(Chunk& chunk, const Step& step) const override;
+    [[nodiscard]] std::optional<Mark> mark() const override { return markOf(values(), {MarkShape::cross, place_}); }
 
  private:
     AttractionLaw law_;
@@ -55,6 +56,7 @@ PartInfo describe() {
     info.parameters.real("strength", 10, -1e6, 1e6, "", "k: the acceleration in m/s² where f is 1; negative: repulsion")
         .real("softening_metres", 0.05, 1e-3, 1e4, "m",
               "ε: limits the attraction at small distances, since f is infinite at d = 0");
+    declareMark(info.parameters, "a cross", {0.2, 0.8, 0.3});
     info.create = [](const ParameterValues& values) { return std::make_unique<Attractor>(values); };
     return info;
 }

@@ -44,6 +44,9 @@ class Avoid final : public ForcePart {
 
     void push(Chunk& chunk, const Step& step) const override;
     [[nodiscard]] const Surface* surface() const override { return surface_.get(); }
+    [[nodiscard]] std::optional<Mark> mark() const override {
+        return markOf(values(), {MarkShape::ball, ball_.centre, {0, 1, 0}, ball_.radiusMetres});
+    }
     [[nodiscard]] Contact contact() const override { return {.restitution = 0, .friction = 0}; }
 
  private:
@@ -79,6 +82,7 @@ PartInfo describe() {
         .real("margin_metres", 0.2, 0, 1e5, "m", "m: they pass at least this far from it, if there is time")
         .real("ahead_seconds", 1, 0, 1e3, "s", "how far ahead they look")
         .real("maximum_acceleration", 30, 0, 1e5, "m/s²", "limit on the turn");
+    declareMark(info.parameters, "a ball", {0.5, 0.5, 0.5});
     info.create = [](const ParameterValues& values) { return std::make_unique<Avoid>(values); };
     return info;
 }

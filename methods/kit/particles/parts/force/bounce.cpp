@@ -89,6 +89,7 @@ class Bounce final : public ForcePart {
     void push(Chunk& chunk, const Step& step) const override;
     [[nodiscard]] const Surface* surface() const override { return printed_ ? nullptr : surface_.get(); }
     [[nodiscard]] Contact contact() const override { return contact_; }
+    [[nodiscard]] std::optional<Mark> mark() const override { return markOfSurface(values()); }
     [[nodiscard]] std::size_t bytes() const override { return surface_->bytes(); }
 
  private:

@@ -37,7 +37,8 @@ class Springs final : public ForcePart {
     void begin(const Step& step, const ParticleStore& store) override;
     void push(Chunk& chunk, const Step& step) const override;
     [[nodiscard]] bool settles() const override { return stepping_ == Stepping::byPosition; }
-    void settle(ParticleStore& store, const StepStart& start, const MetSurfaces& surfaces, const Step& step) override;
+    void settle(ParticleStore& store, const StepStart& start, const Fates& fates, const MetSurfaces& surfaces,
+                const Step& step) override;
     void touch(Chunk& chunk, const Step& step) const override;
     [[nodiscard]] std::size_t bytes() const override;
 
@@ -114,8 +115,9 @@ void Springs::push(Chunk& chunk, const Step&) const {
     }
 }
 
-void Springs::settle(ParticleStore& store, const StepStart& start, const MetSurfaces& surfaces, const Step& step) {
-    positions_.run(numbers_, {*step.lattice, links_, frame_}, start, surfaces, step.seconds, store);
+void Springs::settle(ParticleStore& store, const StepStart& start, const Fates& fates, const MetSurfaces& surfaces,
+                     const Step& step) {
+    positions_.run(numbers_, {*step.lattice, links_, frame_}, {start, surfaces, step.seconds}, store, fates);
 }
 
 /// Pinned particles are where the lattice is.

@@ -42,6 +42,7 @@ class Light final : public ShadingPart {
           maximum_(static_cast<float>(values.real("maximum"))) {}
 
     void shade(Chunk& chunk, const Step& step) const override;
+    [[nodiscard]] std::optional<Mark> mark() const override { return markOf(values(), {MarkShape::cross, place_}); }
 
  private:
     glm::vec3 place_, colour_;
@@ -68,6 +69,7 @@ PartInfo describe() {
                 "how the luminosity falls with the distance; 1/d3: through rain or fog")
         .real("intensity", 4, 0, 1e6, "m² or m³", "I: the luminosity at a distance of 1 m")
         .real("maximum", 1, 1e-3, 1e3, "", "maximum luminosity from this light, reached near it");
+    declareMark(info.parameters, "a cross", {1, 0.9, 0.4});
     info.create = [](const ParameterValues& values) { return std::make_unique<Light>(values); };
     return info;
 }
