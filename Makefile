@@ -136,6 +136,11 @@ golden: build/release/build.ninja ## Redraw the window's golden pictures; look a
 	@cmake --build --preset release --parallel $(JOBS) --target bench_panels_tests
 	@DUSTBENCH_GOLDEN=write build/release/bench_panels_tests --gtest_filter='GoldenPictures.*'
 
+.PHONY: documents
+documents: build/release/build.ninja ## Write the tables in reports/ that are made from declarations
+	@cmake --build --preset release --parallel $(JOBS) --target bench_results_tests
+	@DUSTBENCH_DOCUMENTS=write build/release/bench_results_tests --gtest_filter='*Documents.*'
+
 .PHONY: faults
 faults: build/release/build.ninja ## Let every system call fail once, and kill the program 1,000 times (KILLS=1000): about an hour
 	@cmake --build --preset release --parallel $(JOBS) --target dustbench failing_calls

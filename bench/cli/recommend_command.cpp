@@ -1,5 +1,6 @@
 // `dustbench recommend`: recommends a method and its settings for a time budget, from results.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iostream>
@@ -22,6 +23,12 @@ struct RecommendOptions {
     std::vector<std::string> where;
     bool json = false;
 };
+
+std::string qualityNames() {
+    std::vector<std::string_view> names;
+    for (const bench::Metric& metric : bench::qualityMetrics()) names.push_back(metric.column);
+    return fmt::format("{}", fmt::join(names, "|"));
+}
 
 std::vector<bench::Condition> conditionsOf(const RecommendOptions& options) {
     std::vector<bench::Condition> conditions;
@@ -59,7 +66,7 @@ int refuse(const bench::MeasuredRuns& runs, const bench::Rankings& rankings) {
 
 int recommend(const RecommendOptions& options) {
     const bench::Budget budget = bench::parseBudget("--budget", options.budget);
-    const bench::PictureMetric& quality = bench::qualityMetric("--quality", options.quality);
+    const bench::Metric quality = bench::qualityMetric("--quality", options.quality);
     bench::MeasuredRuns runs = bench::readMeasuredRuns(options.from);
     bench::narrow(runs, conditionsOf(options));
     const bench::Rankings rankings = bench::rankSettings(runs, quality);
@@ -98,8 +105,8 @@ Command recommendCommand() {
                             "answer for these worlds or settings only: particles=500, size=320x240, "
                             "method=billboard; values may be lists and ranges; may be given several times",
                             options->where);
-            arguments.text("--quality", "psnr_mask_db|ssim_mask|flip_mask",
-                           "metric that ranks pictures; default: psnr_mask_db", options->quality);
+            arguments.text("--quality", qualityNames(), "metric that ranks pictures; default: psnr_mask_db",
+                           options->quality);
             arguments.text("--chart", "FILE", "also draw quality against time: .svg, .png or .pdf", options->chart);
             arguments.flag("--json", "print JSON: an object with all settings and their metrics", options->json);
         },

@@ -15,7 +15,7 @@ namespace {
 
 using bench::MeasuredSetting;
 using bench::MedianInterval;
-using bench::PictureMetric;
+using bench::Metric;
 using bench::Ranking;
 using bench::Recommendation;
 
@@ -36,7 +36,7 @@ std::string decibels(double value) {
     return std::isfinite(value) ? fmt::format("{:.2f}", value) : "identical";
 }
 
-std::string qualityOf(double value, const PictureMetric& metric) {
+std::string qualityOf(double value, const Metric& metric) {
     return metric.unit == "dB" ? decibels(value) : fixed(value, 4);
 }
 
@@ -50,7 +50,7 @@ std::string timeText(const MeasuredSetting& setting) {
 }
 
 /// `31.66 dB (one seed)`
-std::string qualityText(const MeasuredSetting& setting, const PictureMetric& metric) {
+std::string qualityText(const MeasuredSetting& setting, const Metric& metric) {
     const MedianInterval& quality = setting.quality;
     const bool hasUnit = !metric.unit.empty() && std::isfinite(quality.median);
     const std::string value = fmt::format("{} {}{}{}", metric.column, qualityOf(quality.median, metric),
@@ -60,13 +60,13 @@ std::string qualityText(const MeasuredSetting& setting, const PictureMetric& met
                        qualityOf(quality.high, metric), quality.values);
 }
 
-std::string lineOf(const std::string& head, const MeasuredSetting& setting, const PictureMetric& metric) {
+std::string lineOf(const std::string& head, const MeasuredSetting& setting, const Metric& metric) {
     return fmt::format("  {:<15} {}: {}, {}\n", head, setting.label, timeText(setting), qualityText(setting, metric));
 }
 
 std::string answerText(const Ranking& ranking, const Recommendation& answer, const bench::Rankings& rankings,
                        const bench::Budget& budget) {
-    const PictureMetric& metric = rankings.quality;
+    const Metric& metric = rankings.quality;
     std::string text;
     if (answer.recommended) {
         text += lineOf("recommended", ranking.settings[*answer.recommended], metric);
@@ -82,7 +82,7 @@ std::string answerText(const Ranking& ranking, const Recommendation& answer, con
     return text;
 }
 
-std::vector<std::string> rowOf(const MeasuredSetting& setting, const PictureMetric& metric, double budgetMs) {
+std::vector<std::string> rowOf(const MeasuredSetting& setting, const Metric& metric, double budgetMs) {
     const MedianInterval &ms = setting.ms, &quality = setting.quality;
     const bool isTimedOnce = ms.values < 2, isOneSeed = quality.values < 2;
     return {setting.label,
@@ -98,14 +98,14 @@ std::vector<std::string> rowOf(const MeasuredSetting& setting, const PictureMetr
             setting.onFront ? "front" : ""};
 }
 
-std::string settingsTable(const Ranking& ranking, const PictureMetric& metric, double budgetMs) {
+std::string settingsTable(const Ranking& ranking, const Metric& metric, double budgetMs) {
     std::vector<std::vector<std::string>> rows{
         {"setting", "fits", "ms", "low", "high", "n", std::string(metric.column), "low", "high", "seeds", "pareto"}};
     for (const MeasuredSetting& setting : ranking.settings) rows.push_back(rowOf(setting, metric, budgetMs));
     return textTable(rows);
 }
 
-std::string valueText(const MeasuredSetting& setting, const PictureMetric& metric) {
+std::string valueText(const MeasuredSetting& setting, const Metric& metric) {
     const auto found = setting.metrics.find(metric.column);
     if (found == setting.metrics.end()) return "-";
     const MedianInterval& value = found->second;
@@ -123,14 +123,14 @@ std::string flawTable(const Ranking& ranking, const Recommendation& answer) {
 
     std::vector<std::vector<std::string>> rows{{"metric", "unit", "perfect"}};
     for (const std::size_t index : shown) rows.front().push_back(ranking.settings[index].label);
-    const auto add = [&](const PictureMetric& metric) {
+    const auto add = [&](const Metric& metric) {
         std::vector<std::string> row{std::string(metric.column), std::string(metric.unit), std::string(metric.perfect)};
         for (const std::size_t index : shown) row.push_back(valueText(ranking.settings[index], metric));
         if (std::any_of(row.begin() + 3, row.end(), [](const std::string& cell) { return cell != "-"; }))
             rows.push_back(std::move(row));
     };
-    std::ranges::for_each(bench::qualityMetrics, add);
-    std::ranges::for_each(bench::flawMetrics, add);
+    std::ranges::for_each(bench::qualityMetrics(), add);
+    std::ranges::for_each(bench::flawMetrics(), add);
     return textTable(rows);
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <tuple>
 
 #include "bench/measure/statistics.h"
@@ -29,7 +30,7 @@ using SettingKey = std::pair<std::string, SettingTexts>;
 using WorldRuns = std::map<SettingKey, SettingRuns>;
 using WorldKey = std::pair<std::size_t, SettingTexts>;
 
-std::map<WorldKey, WorldRuns> sortRuns(const MeasuredRuns& runs, const PictureMetric& quality) {
+std::map<WorldKey, WorldRuns> sortRuns(const MeasuredRuns& runs, const Metric& quality) {
     std::map<WorldKey, WorldRuns> worlds;
     for (const MeasuredRun& run : runs.runs) {
         SettingRuns& setting = worlds[{run.machine, run.world}][{run.method, run.own}];
@@ -73,13 +74,13 @@ void setTime(MeasuredSetting& setting, const RunList& timed) {
 }
 
 /// Pictures do not depend on the repetition, so values are taken per seed.
-void setMetrics(MeasuredSetting& setting, const RunList& judged, const PictureMetric& quality) {
+void setMetrics(MeasuredSetting& setting, const RunList& judged, const Metric& quality) {
     const auto add = [&](std::string_view column) {
         if (const auto bySeed = valuesBySeed(judged, column); !bySeed.empty())
             setting.metrics.emplace(column, overSeeds(bySeed));
     };
-    for (const PictureMetric& metric : qualityMetrics) add(metric.column);
-    for (const PictureMetric& metric : flawMetrics) add(metric.column);
+    for (const Metric& metric : metrics())
+        if (metric.ranks || metric.isFlaw) add(metric.column);
     add("flip");
     setting.quality = setting.metrics.at(std::string(quality.column));
     setting.otherRuns =
@@ -104,12 +105,12 @@ std::string commonFrames(const WorldRuns& world, const SettingTexts& conduct, co
     return best == found.end() ? "" : best->first;
 }
 
-bool isAhead(const MeasuredSetting& a, const MeasuredSetting& b, const PictureMetric& quality) {
+bool isAhead(const MeasuredSetting& a, const MeasuredSetting& b, const Metric& quality) {
     if (a.quality.median != b.quality.median) return isBetter(a.quality.median, b.quality.median, quality);
     return std::tie(a.ms.median, a.method, a.own) < std::tie(b.ms.median, b.method, b.own);
 }
 
-void markFront(std::vector<MeasuredSetting>& settings, const PictureMetric& quality) {
+void markFront(std::vector<MeasuredSetting>& settings, const Metric& quality) {
     for (MeasuredSetting& setting : settings)
         setting.onFront = std::ranges::all_of(settings, [&](const MeasuredSetting& other) {
             return &other == &setting || other.ms.low > setting.ms.high ||
@@ -118,7 +119,7 @@ void markFront(std::vector<MeasuredSetting>& settings, const PictureMetric& qual
 }
 
 Ranking rankWorld(const WorldKey& key, WorldRuns& world, const SettingTexts& conduct, const std::string& reference,
-                  const PictureMetric& quality) {
+                  const Metric& quality) {
     Ranking ranking{.world = key.second,
                     .conduct = conduct,
                     .judgedFrames = commonFrames(world, conduct, reference),
@@ -139,7 +140,7 @@ Ranking rankWorld(const WorldKey& key, WorldRuns& world, const SettingTexts& con
     return ranking;
 }
 
-std::vector<Ranking> rankWorld(const WorldKey& key, WorldRuns& world, const PictureMetric& quality) {
+std::vector<Ranking> rankWorld(const WorldKey& key, WorldRuns& world, const Metric& quality) {
     std::set<SettingTexts> conducts;
     std::set<std::string> references;
     for (const auto& [settingKey, runs] : world) {
@@ -227,24 +228,37 @@ bool isBefore(const SettingTexts& a, const SettingTexts& b) {
 
 }  // namespace
 
-const PictureMetric& qualityMetric(const std::string& what, const std::string& column) {
-    const auto* const found = std::ranges::find(qualityMetrics, column, &PictureMetric::column);
-    if (found != qualityMetrics.end()) return *found;
+std::vector<Metric> qualityMetrics() {
+    std::vector<Metric> list = metrics();
+    std::erase_if(list, [](const Metric& metric) { return !metric.ranks; });
+    std::ranges::stable_sort(list, std::greater(), &Metric::higherIsBetter);  // PSNR, the default, comes first
+    return list;
+}
+
+std::vector<Metric> flawMetrics() {
+    std::vector<Metric> list = metrics();
+    std::erase_if(list, [](const Metric& metric) { return !metric.isFlaw; });
+    return list;
+}
+
+Metric qualityMetric(const std::string& what, const std::string& column) {
     std::vector<std::string_view> names;
-    names.reserve(qualityMetrics.size());
-    for (const PictureMetric& metric : qualityMetrics) names.push_back(metric.column);
+    for (const Metric& metric : qualityMetrics()) {
+        if (metric.column == column) return metric;
+        names.push_back(metric.column);
+    }
     throw InputError(fmt::format("{}: got '{}', allowed: {}", what, column, fmt::join(names, ", ")));
 }
 
-bool isBetter(double a, double b, const PictureMetric& metric) {
+bool isBetter(double a, double b, const Metric& metric) {
     return metric.higherIsBetter ? a > b : a < b;
 }
 
-bool isClearlyBetter(const MedianInterval& a, const MedianInterval& b, const PictureMetric& metric) {
+bool isClearlyBetter(const MedianInterval& a, const MedianInterval& b, const Metric& metric) {
     return metric.higherIsBetter ? a.low > b.high : a.high < b.low;
 }
 
-Rankings rankSettings(const MeasuredRuns& runs, const PictureMetric& quality) {
+Rankings rankSettings(const MeasuredRuns& runs, const Metric& quality) {
     Rankings result{.quality = quality, .rankings = {}, .incomplete = {}};
     auto worlds = sortRuns(runs, quality);
     for (auto& [key, world] : worlds)

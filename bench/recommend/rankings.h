@@ -6,11 +6,11 @@
 // with the interval of median_interval.h. Units: as the columns of summary.csv. Threads: pure.
 #pragma once
 
-#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "bench/measure/image/metric.h"
 #include "bench/recommend/measured_runs.h"
 #include "bench/report/median_interval.h"
 
@@ -19,26 +19,11 @@ namespace dustbench::bench {
 /// The column of a method's own time.
 inline constexpr std::string_view timeColumn = "method_ms_median";
 
-/// A metric that ranks pictures, or one that measures a flaw. reports/METRICS.md defines them.
-struct PictureMetric {
-    std::string_view column, unit;
-    std::string_view perfect;  ///< value of a picture that equals the reference
-    bool higherIsBetter = false;
-};
-inline constexpr std::array<PictureMetric, 3> qualityMetrics{
-    {{"psnr_mask_db", "dB", "identical", true}, {"ssim_mask", "", "1", true}, {"flip_mask", "", "0", false}}};
-inline constexpr std::array<PictureMetric, 10> flawMetrics{{{"popping", "encoded value", "0"},
-                                                            {"gaps", "share of the trail", "0"},
-                                                            {"spill", "share of the shown trail", "0"},
-                                                            {"components", "parts", "as the reference"},
-                                                            {"cutoff", "alpha/pixel", "0"},
-                                                            {"self_similarity", "", "0"},
-                                                            {"banding", "linear light", "0"},
-                                                            {"error_max", "linear light", "0"},
-                                                            {"quads_per_pixel", "1/pixel", "any"},
-                                                            {"volume_error", "", "0"}}};
+/// The metrics that can rank pictures, and those that measure flaws.
+[[nodiscard]] std::vector<Metric> qualityMetrics();
+[[nodiscard]] std::vector<Metric> flawMetrics();
 /// Throws InputError that begins with `what`.
-[[nodiscard]] const PictureMetric& qualityMetric(const std::string& what, const std::string& column);
+[[nodiscard]] Metric qualityMetric(const std::string& what, const std::string& column);
 
 /// One method with one set of parameters.
 struct MeasuredSetting {
@@ -69,15 +54,15 @@ struct Incomplete {
 };
 
 struct Rankings {
-    PictureMetric quality;
+    Metric quality;
     std::vector<Ranking> rankings;  ///< each with one setting or more
     std::vector<Incomplete> incomplete;
 };
 
-[[nodiscard]] Rankings rankSettings(const MeasuredRuns& runs, const PictureMetric& quality);
+[[nodiscard]] Rankings rankSettings(const MeasuredRuns& runs, const Metric& quality);
 
 /// True if every value in the interval of `a` is better than every value in that of `b`.
-[[nodiscard]] bool isClearlyBetter(const MedianInterval& a, const MedianInterval& b, const PictureMetric& metric);
-[[nodiscard]] bool isBetter(double a, double b, const PictureMetric& metric);
+[[nodiscard]] bool isClearlyBetter(const MedianInterval& a, const MedianInterval& b, const Metric& metric);
+[[nodiscard]] bool isBetter(double a, double b, const Metric& metric);
 
 }  // namespace dustbench::bench

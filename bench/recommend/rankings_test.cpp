@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-const PictureMetric& psnrMetric = qualityMetrics.front();
+const Metric psnrMetric = qualityMetric("", "psnr_mask_db");
 
 Rankings rankOf(const std::vector<TestRow>& rows) {
     return rankSettings(runsOf(rows), psnrMetric);

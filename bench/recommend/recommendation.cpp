@@ -15,7 +15,7 @@ bool fits(const MeasuredSetting& setting, double budgetMs) {
     return setting.ms.high <= budgetMs;
 }
 
-Recommendation recommend(const Ranking& ranking, const PictureMetric& quality, double budgetMs) {
+Recommendation recommend(const Ranking& ranking, const Metric& quality, double budgetMs) {
     const std::vector<MeasuredSetting>& settings = ranking.settings;
     Recommendation result;
     std::vector<std::size_t> good;

@@ -24,6 +24,6 @@ struct Recommendation {
 [[nodiscard]] bool fits(const MeasuredSetting& setting, double budgetMs);
 
 /// `ranking` must have at least one setting.
-[[nodiscard]] Recommendation recommend(const Ranking& ranking, const PictureMetric& quality, double budgetMs);
+[[nodiscard]] Recommendation recommend(const Ranking& ranking, const Metric& quality, double budgetMs);
 
 }  // namespace dustbench::bench

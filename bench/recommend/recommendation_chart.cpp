@@ -54,7 +54,7 @@ void addWorldAxis(RunGroup& group, const std::string& name, const std::vector<st
     for (std::size_t cell = 0; cell < group.cells.size(); ++cell) group.cells[cell].settings[name] = valueOfCell[cell];
 }
 
-void fillCells(RunGroup& group, const std::vector<Drawn>& drawn, const PictureMetric& quality) {
+void fillCells(RunGroup& group, const std::vector<Drawn>& drawn, const Metric& quality) {
     std::vector<std::string> references, machines, lengths;
     for (ReportCell& cell : group.cells) {
         const auto& [ranking, setting] = drawn[std::stoul(cell.done.front()->runId)];

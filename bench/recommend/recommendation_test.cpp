@@ -17,7 +17,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
 
-const PictureMetric& psnr = qualityMetrics.front();
+const Metric psnr = qualityMetric("", "psnr_mask_db");
 
 Rankings rank(const std::vector<TestRow>& rows) {
     return rankSettings(runsOf(rows), psnr);
@@ -89,7 +89,7 @@ TEST(Recommendation, IsByTheLowestFlipIfAsked) {
     MeasuredRuns runs = runsOf(rows);
     for (MeasuredRun& run : runs.runs)
         if (run.numbers.contains("psnr_mask_db")) run.numbers["flip_mask"] = run.method == "a" ? 0.2 : 0.1;
-    const PictureMetric& flip = qualityMetric("--quality", "flip_mask");
+    const Metric flip = qualityMetric("--quality", "flip_mask");
     const Rankings rankings = rankSettings(runs, flip);
     const Recommendation answer = recommend(rankings.rankings.at(0), flip, 4);
     EXPECT_EQ(rankings.rankings.at(0).settings.at(*answer.recommended).method, "b");

@@ -127,8 +127,8 @@ void drawChart(const ReportData& data, const std::string& id, const fs::path& fi
     WholeFile script(file.string() + ".js"), svg(file.string() + ".svg"), drawn(file), log(file.string() + ".log");
     writeWhole(script.beside(), fmt::format("{}\n{}\nconst reportColumns = {};\nconst reportCharts = {};\n"
                                             "const reportData = {};\n{}",
-                                            vegaScript(), chartScript(), reportFile("columns.json"),
-                                            chartSpecifications(), reportJson(data), reportFile("chart_file.js")));
+                                            vegaScript(), chartScript(), reportColumns(), chartSpecifications(),
+                                            reportJson(data), reportFile("chart_file.js")));
     callDrawingProgram({"node", script.beside().string(), id, svg.beside().string()}, "nodejs", log.beside());
     if (format == "svg")
         fs::rename(svg.beside(), drawn.beside());

@@ -19,7 +19,7 @@ std::string pageOf(const ReportData& data) {
     return filled(reportFile("page.html"), {{"title", escaped(title)},
                                             {"style", reportFile("page.css")},
                                             {"vega", vegaScript()},
-                                            {"columns", reportFile("columns.json")},
+                                            {"columns", reportColumns()},
                                             {"charts", chartSpecifications()},
                                             {"data", reportJson(data)},
                                             {"schema", escaped(documentText("SCHEMA.md"))},

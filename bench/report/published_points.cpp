@@ -107,7 +107,7 @@ class PublishedReader {
     [[nodiscard]] static std::string unitOf(const std::string& column) {
         for (const MethodFact& fact : methodFacts())
             if (fact.info.name == column) return fact.info.unit;
-        static const auto columns = nlohmann::json::parse(reportFile("columns.json"));
+        static const auto columns = nlohmann::json::parse(reportColumns());
         return columns.contains(column) ? columns[column].value("unit", "") : "";
     }
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <nlohmann/json.hpp>
 
+#include "bench/measure/image/metric.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/shipped_folder.h"
 #include "methods/kit/files/whole_text.h"
@@ -64,6 +66,25 @@ std::string fileText(const fs::path& file) {
 
 std::string reportFile(std::string_view name) {
     return fileText(reportsFolder() / "report" / name);
+}
+
+std::string reportColumns() {
+    const auto others = nlohmann::ordered_json::parse(reportFile("columns.json"));
+    nlohmann::ordered_json columns;
+    const auto addOthers = [&](bool cost) {
+        for (const auto& [column, shown] : others.items())
+            if (shown.contains("cost") == cost) columns[column] = shown;
+    };
+    addOthers(true);
+    for (const Metric& metric : metrics())
+        if (!metric.chartName.empty())
+            columns[std::string(metric.column)] = {{"name", metric.chartName},
+                                                   {"unit", metric.unit},
+                                                   {"better", metric.higherIsBetter ? "high" : "low"},
+                                                   {"metric", true},
+                                                   {"flaw", metric.isFlaw}};
+    addOthers(false);
+    return columns.dump();
 }
 
 std::string documentText(std::string_view name) {

@@ -11,6 +11,10 @@ namespace dustbench::bench {
 /// The content of `reports/report/<name>`. Throws InputError.
 [[nodiscard]] std::string reportFile(std::string_view name);
 
+/// The name, unit and direction of each quantity that charts show, as JSON: `reports/report/columns.json` and the image
+/// metrics. Throws InputError.
+[[nodiscard]] std::string reportColumns();
+
 /// The content of a file. Throws InputError.
 [[nodiscard]] std::string fileText(const std::filesystem::path& file);
 

@@ -1,7 +1,9 @@
 // Checks reports/SCHEMA.md against the headers of the files that the program writes, in both directions.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -11,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/measure/image/metric.h"
 #include "bench/reference/judge/judgement.h"
 #include "bench/results/frame_files.h"
 #include "bench/results/method_facts.h"
@@ -88,14 +91,73 @@ Names headerOf(const std::string& csv) {
 TEST(Schema, DefinesEveryColumnOfEveryTable) {
     expectDefined("frames.csv", headerOf(framesCsv({})));
     expectDefined("stages.csv", headerOf(stagesCsv({})));
-    expectDefined("metrics.csv", headerOf(metricsCsv(Judgement())));
+    const auto isMetric = [](const std::string& name) {
+        return std::ranges::find(metrics(), name, &Metric::column) != metrics().end();
+    };
+    Names ofFrames = headerOf(metricsCsv(Judgement()));
+    std::erase_if(ofFrames, [&](const std::string& name) { return isMetric(name) && name != "popping"; });
+    expectDefined("metrics.csv", ofFrames);
     Names summary = columnsBeforeParameters();
     summary.push_back("p.<name>");
     summary.insert(summary.end(), columnsAfterParameters().begin(), columnsAfterParameters().end());
-    std::erase_if(summary, [](const std::string& name) {
-        return std::ranges::any_of(methodFacts(), [&](const MethodFact& fact) { return fact.info.name == name; });
+    std::erase_if(summary, [&](const std::string& name) {
+        return isMetric(name) ||
+               std::ranges::any_of(methodFacts(), [&](const MethodFact& fact) { return fact.info.name == name; });
     });
     expectDefined("summary.csv", summary);
+}
+
+std::string overRunText(OverRun overRun) {
+    switch (overRun) {
+        case OverRun::mean:
+            return "mean over the compared frames in which it is defined";
+        case OverRun::all:
+            return "1 if it is 1 in all compared frames";
+        case OverRun::pairs:
+        case OverRun::whole:
+            return "over the pairs of consecutive frames among the last 31";
+    }
+    return {};
+}
+
+/// Compares the rows below a table's head with those made from the declarations, or writes these into the document if
+/// DUSTBENCH_DOCUMENTS=write.
+void expectRows(const std::string& document, const std::string& head, const std::string& rows) {
+    const std::string file = std::string(DUSTBENCH_SOURCE_DIR) + "/reports/" + document;
+    std::ifstream stream(file);
+    std::string text(std::istreambuf_iterator<char>(stream), {});
+    std::size_t begin = text.find("\n" + head + "\n");
+    ASSERT_NE(begin, std::string::npos) << document << " has no table " << head;
+    begin = text.find('\n', begin + head.size() + 2) + 1;  // after the line of dashes
+    const std::size_t end = text.find("\n\n", begin - 1) + 1;
+    if (text.substr(begin, end - begin) == rows) return;
+    const char* const wish = std::getenv("DUSTBENCH_DOCUMENTS");
+    if (wish && std::string_view(wish) == "write") {
+        std::ofstream(file) << text.replace(begin, end - begin, rows);
+    } else {
+        ADD_FAILURE() << document << ": the rows below\n"
+                      << head << "\ndiffer from the declarations; `make documents` writes them again";
+    }
+}
+
+std::string rowOf(std::initializer_list<std::string_view> cells) {
+    std::string row = "|";
+    for (const std::string_view cell : cells) row += cell.empty() ? " |" : fmt::format(" {} |", cell);
+    return row + "\n";
+}
+
+TEST(MetricDocuments, HaveARowForEachMetricAsItIsDeclared) {
+    const auto quoted = [](const Metric& metric) { return fmt::format("`{}`", metric.column); };
+    std::string definitions, columns;
+    for (const Metric& metric : metrics()) {
+        EXPECT_EQ(std::ranges::count(columnsAfterParameters(), metric.column), 1) << metric.column << ": see its round";
+        definitions += rowOf({quoted(metric), metric.definition, metric.range, metric.perfect, metric.unit,
+                              referenceOf(metric), metric.emptyWhen, metric.source});
+        columns += rowOf({quoted(metric), metric.unit, metric.title, overRunText(metric.overRun)});
+    }
+    expectRows("METRICS.md", "| Id | Definition | Range | Perfect | Unit | Reference | Empty when | Source |",
+               definitions);
+    expectRows("SCHEMA.md", "| column | unit | definition | of a run |", columns);
 }
 
 /// Rows without a fact belong to methods that this build excludes.

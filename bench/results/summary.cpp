@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <functional>
+#include <initializer_list>
 #include <limits>
+#include <tuple>
 
+#include "bench/measure/image/metric.h"
 #include "bench/measure/statistics.h"
 #include "bench/results/method_facts.h"
 
@@ -45,62 +48,37 @@ const std::vector<std::string>& columnsBeforeParameters() {
     return names;
 }
 
+/// Columns are only ever added: each extension of the table added metrics (Metric::round) and other columns.
 const std::vector<std::string>& columnsAfterParameters() {
     static const std::vector<std::string> names = [] {
-        std::vector<std::string> list{"frames",       "fps_avg",      "frame_ms_median", "frame_ms_p95",
-                                      "frame_ms_p99", "frame_ms_max", "fps_1pct_low"};
+        std::vector<std::string> list;
+        const auto add = [&](std::initializer_list<const char*> columns) {
+            list.insert(list.end(), columns.begin(), columns.end());
+        };
+        int round = 1;
+        const auto addMetrics = [&] {
+            std::vector<Metric> ofRound = metrics();
+            std::erase_if(ofRound, [&](const Metric& metric) { return metric.round != round; });
+            std::ranges::sort(ofRound, {},
+                              [](const Metric& metric) { return std::tuple(metric.place, metric.column); });
+            for (const Metric& metric : ofRound) list.emplace_back(metric.column);
+            ++round;
+        };
+        add({"frames", "fps_avg", "frame_ms_median", "frame_ms_p95", "frame_ms_p99", "frame_ms_max", "fps_1pct_low"});
         for (const std::string_view stage : stageNames) list.push_back(std::string(stage) + "_ms_median");
-        for (const char* name : {"cpu_bytes",
-                                 "gpu_bytes",
-                                 "rss_peak_bytes",
-                                 "energy_j",
-                                 "particles_median",
-                                 "primitives_median",
-                                 "psnr_db",
-                                 "ssim",
-                                 "flip",
-                                 "rmse_linear",
-                                 "identical",
-                                 "popping",
-                                 "popping_max",
-                                 "gaps",
-                                 "components",
-                                 "cutoff",
-                                 "self_similarity",
-                                 "quads_per_pixel",
-                                 "volume_error",
-                                 "FILE_image",
-                                 "FILE_volume",
-                                 "gpu_ms_median",
-                                 "harness_us_median",
-                                 "psnr_continuum_db",
-                                 "components_reference",
-                                 "metric_reference",
-                                 "frame_ms_p999",
-                                 "fps_01pct_low",
-                                 "start_s",
-                                 "gpu_driver_bytes",
-                                 "energy_cpu_j",
-                                 "energy_gpu_j",
-                                 "frame_ms_min",
-                                 "flip_mask",
-                                 "method_ms_median",
-                                 "psnr_mask_db",
-                                 "ssim_mask",
-                                 "rmse_linear_mask",
-                                 "error_max",
-                                 "volume_picture",
-                                 "invalid",
-                                 "banding",
-                                 "spill",
-                                 "popping_small",
-                                 "popping_large",
-                                 "popping_small_part",
-                                 "popping_large_part",
-                                 "run_s",
-                                 "gpu_mhz_min",
-                                 "gpu_mhz_max"})
-            list.emplace_back(name);
+        add({"cpu_bytes", "gpu_bytes", "rss_peak_bytes", "energy_j", "particles_median", "primitives_median"});
+        addMetrics();
+        add({"FILE_image", "FILE_volume", "gpu_ms_median", "harness_us_median"});
+        addMetrics();
+        add({"metric_reference", "frame_ms_p999", "fps_01pct_low", "start_s", "gpu_driver_bytes", "energy_cpu_j",
+             "energy_gpu_j", "frame_ms_min"});
+        addMetrics();
+        add({"method_ms_median"});
+        addMetrics();
+        add({"invalid"});
+        addMetrics();
+        add({"run_s", "gpu_mhz_min", "gpu_mhz_max"});
+        addMetrics();
         for (const MethodFact& fact : methodFacts()) list.push_back(fact.info.name);
         return list;
     }();

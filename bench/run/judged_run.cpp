@@ -127,7 +127,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
         if (inStretch) {
             CollectedVolume volume;
             runner.volume(volume);
-            metrics.popping = poppingJudge.add(drawn, exact, sizedPrimitivesOnScreen(volume, view));
+            metrics.values.set("popping", poppingJudge.add(drawn, exact, sizedPrimitivesOnScreen(volume, view)));
         }
         judgement.frames.push_back(metrics);
     };
@@ -147,9 +147,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
 
     if (const std::string again = fmt::format("{:016x}", world.stateHash()); again != stateHash)
         throw std::runtime_error("metrics: the replay of the run ends in state " + again + ", not in " + stateHash);
-    judgement.popping = poppingJudge.summary().mean();
-    judgement.poppingMax = poppingJudge.summary().maximum();
-    judgement.poppingBySize = poppingJudge.bySize();
+    judgement.ofRun = valuesOf(poppingJudge.ofRun());
     writeWhole(folder / "metrics.csv", metricsCsv(judgement));
     return judgement;
 }

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/reference/judge/judgement.h"
+#include "bench/measure/image/metric.h"
 #include "bench/results/method_facts.h"
 #include "bench/results/run_record.h"
 #include "bench/scene/data_list.h"
@@ -42,7 +42,7 @@ std::vector<CatalogueItem> listMetrics() {
     add("rss_peak_bytes", "maximum resident set of the run's process, bytes");
     add("particles_median", "median number of dust particles");
     add("primitives_median", "median number of primitives that the method drew");
-    for (const MetricInfo& metric : metricInfos()) add(std::string(metric.column), std::string(metric.title));
+    for (const Metric& metric : metrics()) add(std::string(metric.column), std::string(metric.title));
     for (const MethodFact& fact : methodFacts()) add(fact.info.name, fact.info.meaning + ", " + fact.info.unit);
     add("state_hash", "hash of vehicle and dust after the last frame (run.json)");
     add("method_hash", "hash of the method's own simulation after the last frame (run.json)");

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/measure/image/metric.h"
 #include "bench/measure/statistics.h"
-#include "bench/reference/judge/judgement.h"
 #include "bench/suite/suite_axes.h"
 #include "methods/contract/stage_clock.h"
 
@@ -45,7 +45,7 @@ std::string threeDigitsIfSmall(double value) {
 /// Metrics of the first repetition, the only one that has them.
 Row metricsOf(const std::vector<const StoredRun*>& done) {
     Row row;
-    for (const MetricInfo& metric : metricInfos()) {
+    for (const Metric& metric : metrics()) {
         const auto values = numbersIn(done, metric.column);
         const double value = values.empty() ? std::numeric_limits<double>::quiet_NaN() : values.front();
         row.push_back(threeDigitsIfSmall(value));
@@ -169,7 +169,7 @@ TextRows tabulateMetrics(const Suite& suite, const StoredRuns& runs) {
     });
     if (!judged) return {};
     Row names;
-    for (const MetricInfo& metric : metricInfos()) names.emplace_back(metric.column);
+    for (const Metric& metric : metrics()) names.emplace_back(metric.column);
     return tabulateRuns(suite, runs, names, metricsOf);
 }
 

@@ -40,7 +40,7 @@ TEST(ExactHalf, GivesTheNumbersAndThePictureOfAJudgedRun) {
     state.drive = "slalom";
     state.seed = 3;
     state.frame = 4;
-    MomentMetrics shown;
+    MetricValues shown;
     pictures::Image reference;
     {
         gpu::Device device;
@@ -48,7 +48,7 @@ TEST(ExactHalf, GivesTheNumbersAndThePictureOfAJudgedRun) {
         while (session.stepsToGo() > 0) session.step();
         session.drawExact();
         ASSERT_EQ(session.exact().whyNotJudged(), "");
-        shown = session.exact().judged().metrics;
+        shown = session.exact().judged().metrics.values;
         reference = session.image(Half::b);
     }
     RunSpec spec = runOf(state, Half::a);
@@ -58,20 +58,13 @@ TEST(ExactHalf, GivesTheNumbersAndThePictureOfAJudgedRun) {
     const auto table = files::CsvTable::parseFile(folder.path() / "metrics.csv");
     const auto row = table.rows() - 1;
     ASSERT_EQ(table.cell(row, "frame"), "4");
-    const std::vector<std::pair<const char*, std::optional<double>>> numbers{{"psnr_db", shown.psnrDb},
-                                                                             {"ssim", shown.ssim},
-                                                                             {"flip", shown.flip},
-                                                                             {"rmse_linear", shown.rmseLinear},
-                                                                             {"psnr_mask_db", shown.psnrMaskDb},
-                                                                             {"ssim_mask", shown.ssimMask},
-                                                                             {"flip_mask", shown.flipMask},
-                                                                             {"rmse_linear_mask", shown.rmseLinearMask},
-                                                                             {"error_max", shown.errorMax}};
-    for (const auto& [column, value] : numbers) {
+    for (const char* column : {"psnr_db", "ssim", "flip", "rmse_linear", "psnr_mask_db", "ssim_mask", "flip_mask",
+                               "rmse_linear_mask", "error_max"}) {
+        const std::optional<double> value = shown.of(column);
         ASSERT_TRUE(value) << column;
         EXPECT_NEAR(*value, std::stod(std::string(table.cell(row, column))), 1e-6 * std::abs(*value)) << column;
     }
-    EXPECT_GT(*shown.flipMask, 1e-3);  // hard billboards differ from the ground truth
+    EXPECT_GT(*shown.of("flip_mask"), 1e-3);  // hard billboards differ from the ground truth
     const pictures::Image saved = pictures::readImage(folder.path() / "images" / "f000004_reference.exr");
     ASSERT_EQ(saved.pixels.size(), reference.pixels.size());
     for (std::size_t i = 0; i < saved.pixels.size(); ++i)
@@ -193,7 +186,7 @@ TEST_F(ExactInViewer, GivesNoNumbersToAMethodWithASimulationOfItsOwn) {
     viewer.advance();
     ASSERT_TRUE(viewer.session().isCurrent(Half::b));
     EXPECT_THAT(viewer.session().exact().whyNotJudged(), HasSubstr("runs its own simulation"));
-    EXPECT_FALSE(viewer.session().exact().judged().metrics.psnrDb);
+    EXPECT_FALSE(viewer.session().exact().judged().metrics.values.of("psnr_db"));
     viewer.split.shown = Shown::flip;  // the pictures can still be compared
     viewer.advance();
     EXPECT_TRUE(viewer.maps().flipMean());

@@ -20,7 +20,7 @@ namespace {
 Measured flipOf(const ViewSession& session) {
     if (session.isExact(Half::b) && session.isJudged() && session.exact().whyNotJudged().empty()) {
         const JudgedMoment& judged = session.exact().judged();
-        return {judged.metrics.flip, judged.difference};
+        return {judged.metrics.values.of("flip"), judged.difference};
     }
     return flip(preparePicture(session.image(Half::b), "the picture of B"),
                 preparePicture(session.image(Half::a), "the picture of A"));

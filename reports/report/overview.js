@@ -2,20 +2,20 @@
 const overview = (() => {
     const { element, put, button } = pageKit;
     const { digits, shownOf, columnOf, variantOf, worldOf } = chartKit;
-    const flaws = ['gaps', 'spill', 'components', 'cutoff', 'popping', 'self_similarity', 'quads_per_pixel', 'volume_error'];
-    const wanted = ['fps_avg', 'method_ms_median', 'psnr_db', ...flaws];
+    /// Cost, quality and the flaws that metrics declare.
+    const wantedIn = ({ columns }) => ['fps_avg', 'method_ms_median', 'psnr_db', ...Object.keys(columns).filter(name => columns[name].flaw)];
     const firstRows = 12;
 
-    const valuesOf = cell => Object.fromEntries(wanted.map(name => [name, chartData.valueOf(cell, name)?.[0] ?? null]));
+    const valuesOf = (cell, wanted) => Object.fromEntries(wanted.map(name => [name, chartData.valueOf(cell, name)?.[0] ?? null]));
     /// A row for each configuration with any of these numbers, its seeds combined. The null method, which draws nothing, is
     /// left out.
     const rowsOf = (report, experiments, titleOf) => experiments.flatMap(whole => {
         const experiment = shownOf(whole);
         return chartData.inOrder(experiment, experiment.cells.filter(cell => cell.method !== chartStyle.baseline && cell.runs.length)).map(cell => ({
-            experiment, title: titleOf(whole), variant: variantOf(report, experiment, cell), world: worldOf(experiment, cell) || '–', method: cell.method, values: valuesOf(cell),
-        })).filter(row => wanted.some(name => row.values[name] !== null));
+            experiment, title: titleOf(whole), variant: variantOf(report, experiment, cell), world: worldOf(experiment, cell) || '–', method: cell.method, values: valuesOf(cell, wantedIn(report)),
+        })).filter(row => Object.values(row.values).some(value => value !== null));
     });
-    const unitText = unit => (unit.startsWith('share') ? '%' : unit === 'encoded value' || unit === 'parts' || unit === 'alpha per pixel' ? '' : unit);
+    const unitText = unit => (unit.startsWith('share') ? '%' : ['encoded value', 'linear light', 'parts', 'alpha/pixel', '1/pixel'].includes(unit) ? '' : unit);
     const headOf = (report, name) => {
         const { name: text, unit } = columnOf(report, name);
         return text + (unitText(unit) ? ` [${unitText(unit)}]` : '');
@@ -30,7 +30,7 @@ const overview = (() => {
 
     const build = (report, experiments, titleOf, colourOf) => {
         const all = rowsOf(report, experiments, titleOf);
-        const columns = wanted.filter(name => all.some(row => row.values[name] !== null));
+        const columns = wantedIn(report).filter(name => all.some(row => row.values[name] !== null));
         // The rows with the most values come first.
         const filled = row => columns.filter(name => row.values[name] !== null).length;
         all.sort((a, b) => filled(b) - filled(a));
@@ -87,5 +87,5 @@ const overview = (() => {
             element('div', { className: 'table-scroll' }, [element('table', {}, [element('thead', {}, [headRow]), body])]), more, note,
         ]);
     };
-    return { build, rowsOf, wanted };
+    return { build, rowsOf };
 })();

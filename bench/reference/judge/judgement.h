@@ -1,10 +1,7 @@
 // The metrics of a run: a row of metrics.csv for each frame with metrics, and columns of summary.csv.
 #pragma once
 
-#include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,11 +12,10 @@ namespace dustbench::bench {
 /// Metrics of one run; frames ascending.
 struct Judgement {
     std::vector<MomentMetrics> frames;  ///< moments, and the consecutive frames for popping, which have only popping
-    std::optional<double> popping, poppingMax;
-    PoppingBySize poppingBySize{};
+    MetricValues ofRun{};               ///< those of pairs of frames
 };
 
-/// `frame,time_s,` and every metric.
+/// `frame,time_s,` and every metric with values of frames.
 [[nodiscard]] std::string metricsCsv(const Judgement& judgement);
 
 /// Means over the moments at which a metric is defined, by column of summary.csv; `identical` is 1 if all moments are
@@ -29,12 +25,5 @@ struct Judgement {
 /// A warning if the mean of `volume_picture` (bench/measure/image/volume_picture.h) shows that the method draws other
 /// volumes than it reports; else empty.
 [[nodiscard]] std::string volumeWarning(const Judgement& judgement);
-
-struct MetricInfo {
-    std::string_view column;  ///< of summary.csv
-    std::string_view title;   ///< a one-line description
-};
-/// All metrics in order. reports/METRICS.md defines them.
-[[nodiscard]] std::span<const MetricInfo> metricInfos();
 
 }  // namespace dustbench::bench

@@ -1,30 +1,12 @@
 #include "bench/reference/judge/moment_metrics.h"
 
 #include "bench/export/extinction_grid.h"
-#include "bench/measure/image/banding.h"
-#include "bench/measure/image/cutoff.h"
 #include "bench/measure/image/flip.h"
 #include "bench/measure/image/image_check.h"
-#include "bench/measure/image/masked_error.h"
-#include "bench/measure/image/picture_error.h"
-#include "bench/measure/image/quads_per_pixel.h"
-#include "bench/measure/image/self_similarity.h"
-#include "bench/measure/image/ssim.h"
-#include "bench/measure/image/trail_gaps.h"
-#include "bench/measure/image/volume_error.h"
-#include "bench/measure/image/volume_picture.h"
 #include "bench/reference/judge/reported_depths.h"
 
 namespace dustbench::bench {
 namespace {
-
-/// Computed on the default export grid of the reference.
-std::optional<double> volumeErrorOf(const CollectedVolume& volume, const CollectedVolume& exact) {
-    if (volume.isNothing() || exact.isNothing()) return std::nullopt;
-    const GridPlan plan = planGrid(exact.bounds(), VolumeSettings().resolution);
-    const ExtinctionGrid reference = computeGrid(exact, plan), grid = computeGrid(volume, plan);
-    return volumeError({plan.cells, reference.extinctionPerMetre}, {plan.cells, grid.extinctionPerMetre}).value;
-}
 
 /// The pixels are opaque up to rounding; the metrics require exactly 1.
 pictures::Image overScene(const pictures::Image& layer, const pictures::Image& scene) {
@@ -33,84 +15,54 @@ pictures::Image overScene(const pictures::Image& layer, const pictures::Image& s
     return image;
 }
 
-std::optional<double> asNumber(const std::optional<int>& value) {
-    return value ? std::optional<double>(*value) : std::nullopt;
-}
-
-/// The pictures of a moment, prepared for the metrics.
-struct PreparedMoment {
-    pictures::Image image, referenceImage;
-    Picture picture, reference;
-    Plane alpha, exactAlpha;
-};
-
-PreparedMoment prepare(const DrawnMoment& drawn, const ExactMoment& exact) {
-    PreparedMoment prepared;
-    prepared.image = overScene(drawn.layer, drawn.scene);
-    prepared.referenceImage = overScene(exact.layer, drawn.scene);
-    prepared.picture = preparePicture(prepared.image, "the method's picture");
-    prepared.reference = preparePicture(prepared.referenceImage, "the reference");
-    prepared.alpha = alphaOf(drawn.layer, "the method's layer");
-    prepared.exactAlpha = alphaOf(exact.layer, "the reference's layer");
-    return prepared;
-}
-
-/// The metrics that need only the two pictures.
-JudgedMoment compare(const PreparedMoment& prepared) {
-    const auto& [image, referenceImage, picture, reference, alpha, exactAlpha] = prepared;
-    JudgedMoment judged{{}, image, referenceImage, {}};
-    MomentMetrics& metrics = judged.metrics;
-    const PictureError error = pictureError(reference, picture);
-    metrics.psnrDb = error.psnrDb;
-    metrics.identical = error.identical;
-    metrics.rmseLinear = error.rmseLinear;
-    const Mask mask = dustMask(alpha, exactAlpha);
-    const MaskedError masked = maskedError(reference, picture, mask);
-    metrics.psnrMaskDb = masked.psnrDb;
-    metrics.rmseLinearMask = masked.rmseLinear;
-    metrics.banding = banding(reference, picture, mask);
-    metrics.errorMax = masked.maximum;
-    const Measured similarity = ssim(reference, picture);
-    metrics.ssim = similarity.value;
-    metrics.ssimMask = meanWithin(similarity.map, mask);
-    Measured flipped = flip(reference, picture);
-    metrics.flip = flipped.value;
-    metrics.flipMask = meanWithin(flipped.map, mask);
-    judged.difference = std::move(flipped.map);
+/// Prepares what the metrics need of the two pictures.
+JudgedMoment prepare(const DrawnMoment& drawn, const ExactMoment& exact, ComparedMoment& moment) {
+    JudgedMoment judged{{}, overScene(drawn.layer, drawn.scene), overScene(exact.layer, drawn.scene), {}};
+    moment.picture = preparePicture(judged.picture, "the method's picture");
+    moment.reference = preparePicture(judged.reference, "the reference");
+    moment.alpha = alphaOf(drawn.layer, "the method's layer");
+    moment.referenceAlpha = alphaOf(exact.layer, "the reference's layer");
+    moment.mask = dustMask(moment.alpha, moment.referenceAlpha);
+    moment.flip = flip(moment.reference, moment.picture);
     return judged;
+}
+
+void evaluate(ComparedMoment& moment, JudgedMoment& judged) {
+    judged.metrics.values = valuesOf(moment);
+    judged.difference = std::move(moment.flip.map);
 }
 
 }  // namespace
 
 JudgedMoment comparePictures(const DrawnMoment& drawn, const ExactMoment& exact) {
-    return compare(prepare(drawn, exact));
+    ComparedMoment moment;
+    JudgedMoment judged = prepare(drawn, exact, moment);
+    evaluate(moment, judged);
+    return judged;
 }
 
 JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, const MomentFacts& facts) {
-    const PreparedMoment prepared = prepare(drawn, exact);
-    const auto& [image, referenceImage, picture, reference, alpha, exactAlpha] = prepared;
-    const Plane alphaFree = alphaOf(drawn.layerWithoutScene, "the method's layer without the scene");
-    const Plane exactFree = alphaOf(exact.layerWithoutScene, "the reference's layer without the scene");
-    const Plane continuum = alphaOf(exact.continuum, "the continuum's layer");
-
-    JudgedMoment judged = compare(prepared);
-    MomentMetrics& metrics = judged.metrics;
+    ComparedMoment moment;
+    JudgedMoment judged = prepare(drawn, exact, moment);
+    moment.alphaFree = alphaOf(drawn.layerWithoutScene, "the method's layer without the scene");
+    moment.referenceAlphaFree = alphaOf(exact.layerWithoutScene, "the reference's layer without the scene");
+    moment.continuum = alphaOf(exact.continuum, "the continuum's layer");
     if (exact.ofOneColour)
-        metrics.psnrContinuumDb =
-            pictureError(preparePicture(overScene(exact.continuum, drawn.scene), "the continuum"), picture).psnrDb;
-    metrics.gaps = gaps(alpha, continuum).value;
-    metrics.spill = spill(alpha, continuum).value;
-    const TrailParts parts = components(alpha, continuum);
-    metrics.components = asNumber(parts.parts);
-    metrics.componentsReference = asNumber(parts.referenceParts);
-    metrics.cutoff = cutoff(alpha, alphaFree, exactAlpha, exactFree).value;
-    metrics.selfSimilarity =
-        selfSimilarity(alpha, exactAlpha, primitivesOnScreen(facts.volume, facts.view), facts.seed).value;
-    metrics.quadsPerPixel = quadsPerPixel(facts.primitives, exactAlpha);
-    metrics.volumeError = volumeErrorOf(facts.volume, facts.referenceVolume);
+        moment.continuumPicture = preparePicture(overScene(exact.continuum, drawn.scene), "the continuum");
+    moment.primitives = facts.primitives;
+    moment.onScreen = primitivesOnScreen(facts.volume, facts.view);
+    moment.seed = facts.seed;
+    ExtinctionGrid grid, referenceGrid;
+    if (!facts.volume.isNothing() && !facts.referenceVolume.isNothing()) {
+        const GridPlan plan = planGrid(facts.referenceVolume.bounds(), VolumeSettings().resolution);
+        referenceGrid = computeGrid(facts.referenceVolume, plan);
+        grid = computeGrid(facts.volume, plan);
+        moment.referenceGrid = GridCells{plan.cells, referenceGrid.extinctionPerMetre};
+        moment.grid = GridCells{plan.cells, grid.extinctionPerMetre};
+    }
     if (!facts.volume.isNothing())
-        metrics.volumePicture = volumePicture(
-            alpha, reportedAlpha(facts.volume, facts.view, distancesFromDepth(facts.view, drawn.sceneDepth)));
+        moment.volumeAlpha = reportedAlpha(facts.volume, facts.view, distancesFromDepth(facts.view, drawn.sceneDepth));
+    evaluate(moment, judged);
     return judged;
 }
 
@@ -148,9 +100,9 @@ std::optional<double> PoppingJudge::Mean::value() const {
     return count > 0 ? std::optional(sum / static_cast<double>(count)) : std::nullopt;
 }
 
-PoppingBySize PoppingJudge::bySize() const {
-    if (!summary_.mean()) return {};
-    return {small_.value(), large_.value(), smallPart_.value(), largePart_.value()};
+PoppingOfRun PoppingJudge::ofRun() const {
+    if (!summary_.mean()) return {summary_, {}};
+    return {summary_, {small_.value(), large_.value(), smallPart_.value(), largePart_.value()}};
 }
 
 }  // namespace dustbench::bench

@@ -7,22 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "bench/measure/image/popping.h"
-#include "bench/measure/image/popping_sizes.h"
+#include "bench/measure/image/metric.h"
 #include "bench/reference/judge/moment_pictures.h"
 
 namespace dustbench::bench {
 
-/// Undefined metrics are empty.
+/// `popping` is the value from the previous frame to this one.
 struct MomentMetrics {
     std::int64_t frame = 0;
     double timeSeconds = 0;
-    std::optional<double> psnrDb, ssim, flip, flipMask, rmseLinear, psnrContinuumDb;
-    std::optional<double> psnrMaskDb, ssimMask, rmseLinearMask, errorMax, banding;  ///< within the mask, as flipMask
-    std::optional<bool> identical;
-    std::optional<double> popping;  ///< from the previous frame
-    std::optional<double> gaps, spill, components, componentsReference, cutoff, selfSimilarity, quadsPerPixel,
-        volumeError, volumePicture;
+    MetricValues values{};
 };
 
 /// Data for the metrics of a moment, other than its pictures.
@@ -52,9 +46,8 @@ class PoppingJudge {
     /// Adds the next frame of the stretch; returns nothing for the first. `primitives`: those that the method draws.
     std::optional<double> add(const DrawnMoment& drawn, const ExactMoment& exact,
                               std::span<const SizedPrimitive> primitives = {});
-    [[nodiscard]] const PoppingSummary& summary() const { return summary_; }
-    /// Means over the pairs that `summary` counts; a pair in which a side has no pixel adds nothing to that side.
-    [[nodiscard]] PoppingBySize bySize() const;
+    /// Values by size are means over the pairs; a pair in which a side has no pixel adds nothing to that side.
+    [[nodiscard]] PoppingOfRun ofRun() const;
 
  private:
     struct Kept {

@@ -47,7 +47,7 @@ std::string machinesPage(const MachineComparison& comparison) {
                                                      {"style", reportFile("page.css")},
                                                      {"machines-style", reportFile("machines/page.css")},
                                                      {"vega", vegaScript()},
-                                                     {"columns", reportFile("columns.json")},
+                                                     {"columns", reportColumns()},
                                                      {"charts", chartSpecifications({"charts", "machines/charts"})},
                                                      {"data", machinesJson(comparison)},
                                                      {"licence", escaped(vegaLicence())},

@@ -63,7 +63,7 @@ TEST_F(EveryWidget, EveryMethodStandsBesideTheExactPictureAndBesideAnother) {
             const bool isJudged =
                 b == exactPicture && viewer_->session().isJudged() && viewer_->session().exact().whyNotJudged().empty();
             if (isJudged) {
-                EXPECT_TRUE(viewer_->session().exact().judged().metrics.flip) << method.id;
+                EXPECT_TRUE(viewer_->session().exact().judged().metrics.values.of("flip")) << method.id;
             }
         }
     }

@@ -30,7 +30,7 @@ std::string labelOf(Shown shown, std::string_view word) {
 }
 
 /// The metrics of this frame, named as in reports/METRICS.md.
-void showNumbers(const MomentMetrics& metrics) {
+void showNumbers(const MetricValues& metrics) {
     if (!beginTable("numbers", 3)) return;
     const auto row = [](const std::string& name, const std::string& whole, const std::string& masked) {
         for (const std::string* cell : {&name, &whole, &masked}) {
@@ -39,12 +39,12 @@ void showNumbers(const MomentMetrics& metrics) {
         }
     };
     row("A vs. ground truth", "picture", "in the mask");
-    const bool identical = metrics.identical.value_or(false);
-    row("psnr_db", identical ? "identical" : number(metrics.psnrDb, 2), number(metrics.psnrMaskDb, 2));
-    row("ssim", number(metrics.ssim, 4), number(metrics.ssimMask, 4));
-    row("flip", number(metrics.flip, 4), number(metrics.flipMask, 4));
-    row("rmse_linear", number(metrics.rmseLinear, 5), number(metrics.rmseLinearMask, 5));
-    row("error_max", "", number(metrics.errorMax, 4));
+    const auto text = [&](const char* column, int digits) { return number(metrics.of(column), digits); };
+    row("psnr_db", metrics.of("identical") == 1.0 ? "identical" : text("psnr_db", 2), text("psnr_mask_db", 2));
+    row("ssim", text("ssim", 4), text("ssim_mask", 4));
+    row("flip", text("flip", 4), text("flip_mask", 4));
+    row("rmse_linear", text("rmse_linear", 5), text("rmse_linear_mask", 5));
+    row("error_max", "", text("error_max", 4));
     ImGui::EndTable();
 }
 
@@ -167,7 +167,7 @@ void PicturePanel::showExact(Viewer& viewer, WidgetMap& widgets) {
         return;
     }
     const ExactHalf& exact = viewer.session().exact();
-    exact.whyNotJudged().empty() ? showNumbers(exact.judged().metrics) : showRemark(exact.whyNotJudged());
+    exact.whyNotJudged().empty() ? showNumbers(exact.judged().metrics.values) : showRemark(exact.whyNotJudged());
     showRemark(fmt::format("ground truth and metrics of frame {}: computed in {:.2f} s", viewer.session().drawnFrame(),
                            exact.seconds()));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/measure/image/metric.h"
 #include "methods/contract/errors.h"
 
 namespace dustbench::bench {
@@ -46,5 +47,28 @@ Measured volumeError(const GridCells& reference, const GridCells& grid) {
         result.map.values[i] = static_cast<float>(std::sqrt(columns[i] / squares));
     return result;
 }
+
+namespace volume_error_metric {
+
+MetricGroup describe() {
+    return {
+        .metrics = {{.column = "volume_error",
+                     .title = "distance of the method's volume from that of the particles; 0: none",
+                     .definition = "‖a − b‖ / ‖b‖ over the cells of the grids of extinction: the particles' default "
+                                   "export grid, 128 cells along its longest edge",
+                     .range = "0 …",
+                     .emptyWhen = "the reference's grid is empty",
+                     .perfect = "0",
+                     .chartName = "volume error",
+                     .isFlaw = true,
+                     .needs = Needs::grids,
+                     .place = 22,
+                     .round = 1}},
+        .ofMoment = [](const ComparedMoment& moment) -> MetricGroup::Values {
+            return {volumeError(*moment.referenceGrid, *moment.grid).value};
+        }};
+}
+
+}  // namespace volume_error_metric
 
 }  // namespace dustbench::bench

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/measure/image/dust_alpha.h"
+#include "bench/measure/image/metric.h"
 
 namespace dustbench::bench {
 namespace {
@@ -45,5 +46,27 @@ Plane overdrawMap(std::span<const ScreenPrimitive> primitives, int width, int he
     }
     return map;
 }
+
+namespace quads_per_pixel_metric {
+
+MetricGroup describe() {
+    return {.metrics = {{.column = "quads_per_pixel",
+                         .title = "primitives per pixel of dust",
+                         .definition = "primitives drawn, divided by the number of pixels with R > 0.01",
+                         .range = "0 …",
+                         .unit = "1/pixel",
+                         .emptyWhen = "no dust in view",
+                         .perfect = "any",
+                         .chartName = "primitives per pixel",
+                         .isFlaw = true,
+                         .needs = Needs::primitives,
+                         .place = 21,
+                         .round = 1}},
+            .ofMoment = [](const ComparedMoment& moment) -> MetricGroup::Values {
+                return {quadsPerPixel(*moment.primitives, moment.referenceAlpha)};
+            }};
+}
+
+}  // namespace quads_per_pixel_metric
 
 }  // namespace dustbench::bench

@@ -5,6 +5,7 @@
 
 #include "bench/measure/image/dust_alpha.h"
 #include "bench/measure/image/image_check.h"
+#include "bench/measure/image/metric.h"
 
 namespace dustbench::bench {
 namespace {
@@ -75,5 +76,42 @@ std::optional<double> PoppingSummary::maximum() const {
     if (stretch.pairs == 0) return {};
     return stretch.maximum;
 }
+
+namespace popping_metric {
+
+MetricGroup describe() {
+    return {
+        .metrics = {{.column = "popping",
+                     .title = "jumps from frame to frame that the reference lacks: mean over the last frames",
+                     .definition =
+                         "RMS of (Iₜ − Iₜ₋₁) − (Rₜ − Rₜ₋₁) where α or R > 0.01 in either frame; mean over the pairs",
+                     .range = "0 … 2",
+                     .unit = "encoded value",
+                     .emptyWhen = "no unbroken stretch of 30 pairs with dust in view",
+                     .perfect = "0",
+                     .chartName = "popping",
+                     .isFlaw = true,
+                     .overRun = OverRun::pairs,
+                     .needs = Needs::pairs,
+                     .place = 12,
+                     .round = 1},
+                    {.column = "popping_max",
+                     .title = "maximum of these jumps",
+                     .definition = "maximum over the pairs",
+                     .range = "0 … 2",
+                     .unit = "encoded value",
+                     .emptyWhen = "as `popping`",
+                     .perfect = "0",
+                     .chartName = "popping of the worst pair of frames",
+                     .overRun = OverRun::whole,
+                     .needs = Needs::pairs,
+                     .place = 13,
+                     .round = 1}},
+        .ofRun = [](const PoppingOfRun& run) -> MetricGroup::Values {
+            return {run.summary.mean(), run.summary.maximum()};
+        }};
+}
+
+}  // namespace popping_metric
 
 }  // namespace dustbench::bench

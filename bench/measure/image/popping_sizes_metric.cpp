@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/measure/image/metric.h"
+
 namespace dustbench::bench {
 namespace {
 
@@ -65,5 +67,45 @@ PoppingBySize poppingBySize(const DustFrame& before, const DustFrame& now, const
     }
     return {small.rootOver(small.pixels), large.rootOver(large.pixels), small.rootOver(pixels), large.rootOver(pixels)};
 }
+
+namespace popping_sizes_metric {
+
+MetricGroup describe() {
+    const auto metric = [](std::string_view column, std::string_view title, std::string_view definition,
+                           std::string_view chartName, int place) {
+        return Metric{.column = column,
+                      .title = title,
+                      .definition = definition,
+                      .range = "0 … 2",
+                      .unit = "encoded value",
+                      .emptyWhen = "as `popping`; all primitives have one size; no pixels of a group",
+                      .perfect = "0",
+                      .chartName = chartName,
+                      .overRun = OverRun::whole,
+                      .needs = Needs::pairs,
+                      .place = place,
+                      .round = 5};
+    };
+    return {.metrics = {metric("popping_small", "popping where the smaller primitives show",
+                               "`popping` over the pixels in which the smaller primitives of the method have more "
+                               "optical depth; the geometric mean of its smallest and largest size separates the two "
+                               "groups",
+                               "popping of small primitives", 24),
+                        metric("popping_large", "popping where the larger primitives show",
+                               "the same for the larger primitives", "popping of large primitives", 25),
+                        metric("popping_small_part",
+                               "contribution of the smaller primitives' pixels to popping; the squares of both add up",
+                               "contribution of the pixels of `popping_small` to `popping`: the root of their sum of "
+                               "squares over the number of all pixels with dust",
+                               "contribution of small primitives to popping", 26),
+                        metric("popping_large_part", "contribution of the larger primitives' pixels to popping",
+                               "the same for the pixels of `popping_large`",
+                               "contribution of large primitives to popping", 27)},
+            .ofRun = [](const PoppingOfRun& run) -> MetricGroup::Values {
+                return {run.bySize.small, run.bySize.large, run.bySize.smallPart, run.bySize.largePart};
+            }};
+}
+
+}  // namespace popping_sizes_metric
 
 }  // namespace dustbench::bench

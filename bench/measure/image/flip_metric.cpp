@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "bench/measure/image/colour_spaces.h"
+#include "bench/measure/image/metric.h"
 #include "bench/measure/image/separable_filter.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/parallel/for_each_block.h"
@@ -181,5 +182,37 @@ Measured flip(const Picture& reference, const Picture& picture, double pixelsPer
                    static_cast<double>(result.map.values.size());
     return result;
 }
+
+namespace flip_metric {
+
+MetricGroup describe() {
+    const auto ofMoment = [](const ComparedMoment& moment) -> MetricGroup::Values {
+        return {moment.flip.value, meanWithin(moment.flip.map, moment.mask)};
+    };
+    return {
+        .metrics = {{.column = "flip",
+                     .title = "difference that a viewer sees when flipping to the reference image; 0: none",
+                     .definition = "mean of the FLIP map (low dynamic range), by default at 67.02 pixels per degree",
+                     .range = "0 … 1",
+                     .source = "Andersson2020",
+                     .perfect = "0",
+                     .chartName = "FLIP",
+                     .place = 3,
+                     .round = 1},
+                    {.column = "flip_mask",
+                     .title = "flip within the pixels that contain dust in either picture",
+                     .definition = "mean of the same map within the mask",
+                     .range = "0 … 1",
+                     .emptyWhen = "no dust in view",
+                     .source = "Andersson2020",
+                     .perfect = "0",
+                     .chartName = "FLIP within the mask",
+                     .ranks = true,
+                     .place = 4,
+                     .round = 3}},
+        .ofMoment = ofMoment};
+}
+
+}  // namespace flip_metric
 
 }  // namespace dustbench::bench

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "bench/measure/image/image_check.h"
+#include "bench/measure/image/metric.h"
 #include "methods/kit/maths/philox.h"
 
 namespace dustbench::bench {
@@ -133,5 +134,29 @@ Measured selfSimilarity(const Plane& alpha, const Plane& referenceAlpha, std::sp
     result.value = own.value() - elsewhere.value();
     return result;
 }
+
+namespace self_similarity_metric {
+
+MetricGroup describe() {
+    return {
+        .metrics = {{.column = "self_similarity",
+                     .title = "similarity of the primitives to each other; 0: none",
+                     .definition = "mean normalised cross-correlation of α − R, sampled at 17×17 points within ±0.8 r "
+                                   "of the centres of primitives, over all pairs of up to 2048 primitives, minus the "
+                                   "same around centres shifted by N(0, r)",
+                     .range = "−1 … 1",
+                     .emptyWhen = "fewer than 8 primitives of r ≥ 4 pixels wholly in view",
+                     .perfect = "0",
+                     .chartName = "self-similarity",
+                     .isFlaw = true,
+                     .needs = Needs::primitives,
+                     .place = 20,
+                     .round = 1}},
+        .ofMoment = [](const ComparedMoment& moment) -> MetricGroup::Values {
+            return {selfSimilarity(moment.alpha, moment.referenceAlpha, moment.onScreen, moment.seed).value};
+        }};
+}
+
+}  // namespace self_similarity_metric
 
 }  // namespace dustbench::bench

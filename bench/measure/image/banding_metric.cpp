@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/measure/image/image_check.h"
+#include "bench/measure/image/metric.h"
 #include "bench/measure/image/separable_filter.h"
 
 namespace dustbench::bench {
@@ -51,5 +52,28 @@ std::optional<double> banding(const Picture& reference, const Picture& picture, 
     if (count == 0) return std::nullopt;
     return std::sqrt(squares / static_cast<double>(count));
 }
+
+namespace banding_metric {
+
+MetricGroup describe() {
+    return {
+        .metrics = {{.column = "banding",
+                     .title = "error that neighbouring pixels with dust have in common, linear light; excludes noise",
+                     .definition = "RMS over the mask of the linear error, averaged over the mask's pixels within "
+                                   "5×5: this reduces noise to a fifth, and a wave of 20 pixels to 0.90",
+                     .range = "0 …",
+                     .unit = "linear light",
+                     .emptyWhen = "no dust in view",
+                     .perfect = "0",
+                     .chartName = "banding",
+                     .isFlaw = true,
+                     .place = 9,
+                     .round = 5}},
+        .ofMoment = [](const ComparedMoment& moment) -> MetricGroup::Values {
+            return {banding(moment.reference, moment.picture, moment.mask)};
+        }};
+}
+
+}  // namespace banding_metric
 
 }  // namespace dustbench::bench

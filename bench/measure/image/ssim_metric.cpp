@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "bench/measure/image/metric.h"
 #include "bench/measure/image/separable_filter.h"
 
 namespace dustbench::bench {
@@ -54,5 +55,43 @@ Measured ssim(const Picture& reference, const Picture& picture) {
     result.value = sum / static_cast<double>(result.map.values.size());
     return result;
 }
+
+namespace ssim_metric {
+
+MetricGroup describe() {
+    const auto ofMoment = [](const ComparedMoment& moment) -> MetricGroup::Values {
+        const Measured similarity = ssim(moment.reference, moment.picture);
+        return {similarity.value, meanWithin(similarity.map, moment.mask)};
+    };
+    return {
+        .metrics = {{.column = "ssim",
+                     .title = "structural similarity to the reference image; 1: identical",
+                     .definition = "structural similarity of Rec. 709 luma; Gaussian window 11×11, σ 1.5, K 0.01 and "
+                                   "0.03, population covariance, windows wholly inside the picture",
+                     .range = "−1 … 1",
+                     .emptyWhen = "the picture is smaller than a window",
+                     .source = "Wang2004",
+                     .perfect = "1",
+                     .higherIsBetter = true,
+                     .chartName = "SSIM",
+                     .place = 2,
+                     .round = 1},
+                    {.column = "ssim_mask",
+                     .title = "ssim of the windows around dust in either picture",
+                     .definition = "mean of the map of `ssim` over the windows whose centre is in the mask, windows "
+                                   "wholly inside the picture",
+                     .range = "−1 … 1",
+                     .emptyWhen = "no dust in view, or only within 5 pixels of the picture's edge",
+                     .source = "Wang2004",
+                     .perfect = "1",
+                     .higherIsBetter = true,
+                     .chartName = "SSIM within the mask",
+                     .ranks = true,
+                     .place = 6,
+                     .round = 4}},
+        .ofMoment = ofMoment};
+}
+
+}  // namespace ssim_metric
 
 }  // namespace dustbench::bench

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/measure/image/image_check.h"
+#include "bench/measure/image/metric.h"
 
 namespace dustbench::bench {
 namespace {
@@ -66,5 +67,51 @@ std::optional<double> meanWithin(const Plane& map, const Mask& mask) {
         }
     return pixels > 0 ? std::optional(sum / static_cast<double>(pixels)) : std::nullopt;
 }
+
+namespace masked_error_metric {
+
+MetricGroup describe() {
+    const auto ofMoment = [](const ComparedMoment& moment) -> MetricGroup::Values {
+        const MaskedError error = maskedError(moment.reference, moment.picture, moment.mask);
+        return {error.psnrDb, error.rmseLinear, error.maximum};
+    };
+    return {
+        .metrics = {{.column = "psnr_mask_db",
+                     .title = "psnr_db within the pixels that contain dust in either picture, dB",
+                     .definition = "`psnr_db` within the mask",
+                     .range = "0 …",
+                     .unit = "dB",
+                     .emptyWhen = "no dust in view, or identical within the mask",
+                     .perfect = "identical",
+                     .higherIsBetter = true,
+                     .chartName = "PSNR within the mask",
+                     .ranks = true,
+                     .place = 5,
+                     .round = 4},
+                    {.column = "rmse_linear_mask",
+                     .title = "rmse_linear within the pixels that contain dust in either picture",
+                     .definition = "`rmse_linear` within the mask",
+                     .range = "0 …",
+                     .unit = "linear light",
+                     .emptyWhen = "no dust in view",
+                     .perfect = "0",
+                     .chartName = "RMSE within the mask",
+                     .place = 7,
+                     .round = 4},
+                    {.column = "error_max",
+                     .title = "maximum error of a pixel with dust, linear light",
+                     .definition = "maximum of \\|I − R\\| over the pixels of the mask and the three linear channels",
+                     .range = "0 …",
+                     .unit = "linear light",
+                     .emptyWhen = "no dust in view",
+                     .perfect = "0",
+                     .chartName = "maximum pixel error",
+                     .isFlaw = true,
+                     .place = 8,
+                     .round = 4}},
+        .ofMoment = ofMoment};
+}
+
+}  // namespace masked_error_metric
 
 }  // namespace dustbench::bench

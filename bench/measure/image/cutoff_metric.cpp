@@ -4,6 +4,7 @@
 
 #include "bench/measure/image/dust_alpha.h"
 #include "bench/measure/image/image_check.h"
+#include "bench/measure/image/metric.h"
 
 namespace dustbench::bench {
 
@@ -31,5 +32,29 @@ Measured cutoff(const Plane& alpha, const Plane& alphaFree, const Plane& referen
     if (pixels > 0) result.value = std::sqrt(sum / static_cast<double>(pixels));
     return result;
 }
+
+namespace cutoff_metric {
+
+MetricGroup describe() {
+    return {
+        .metrics = {{.column = "cutoff",
+                     .title = "hard edges where dust meets ground or solids that the reference lacks, alpha per pixel",
+                     .definition = "RMS of ∇[(α − α_free) − (R − R_free)] where α_free or R_free > 0.01; `_free`: "
+                                   "drawn without the scene's depth; ∇: differences to the right and down",
+                     .range = "0 … 2.83",
+                     .unit = "alpha/pixel",
+                     .emptyWhen = "no dust in view",
+                     .perfect = "0",
+                     .chartName = "cut-off at surfaces",
+                     .isFlaw = true,
+                     .needs = Needs::layersWithoutScene,
+                     .place = 19,
+                     .round = 1}},
+        .ofMoment = [](const ComparedMoment& moment) -> MetricGroup::Values {
+            return {cutoff(moment.alpha, moment.alphaFree, moment.referenceAlpha, moment.referenceAlphaFree).value};
+        }};
+}
+
+}  // namespace cutoff_metric
 
 }  // namespace dustbench::bench

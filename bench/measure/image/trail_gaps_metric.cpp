@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bench/measure/image/image_check.h"
+#include "bench/measure/image/metric.h"
 
 namespace dustbench::bench {
 namespace {
@@ -82,5 +83,67 @@ TrailParts components(const Plane& alpha, const Plane& referenceAlpha) {
     }
     return result;
 }
+
+namespace trail_gaps_metric {
+
+MetricGroup describe() {
+    const auto ofMoment = [](const ComparedMoment& moment) -> MetricGroup::Values {
+        const TrailParts trail = components(moment.alpha, moment.continuum);
+        return {gaps(moment.alpha, moment.continuum).value, spill(moment.alpha, moment.continuum).value, trail.parts,
+                trail.referenceParts};
+    };
+    return {.metrics = {{.column = "gaps",
+                         .title = "share of the trail that is not covered",
+                         .definition = "share of the trail (R > 0.1) where α < R/2",
+                         .range = "0 … 1",
+                         .unit = "share of the trail",
+                         .emptyWhen = "no R > 0.1",
+                         .perfect = "0",
+                         .chartName = "gaps",
+                         .isFlaw = true,
+                         .needs = Needs::continuum,
+                         .place = 15,
+                         .round = 1},
+                        {.column = "spill",
+                         .title = "share of the method's trail with more than twice the reference's alpha",
+                         .definition = "share of the method's own trail (α > 0.1) where α > 2R",
+                         .range = "0 … 1",
+                         .unit = "share of the shown trail",
+                         .emptyWhen = "no α > 0.1",
+                         .source = "Congalton1991",
+                         .perfect = "0",
+                         .chartName = "spill",
+                         .isFlaw = true,
+                         .needs = Needs::continuum,
+                         .place = 16,
+                         .round = 5},
+                        {.column = "components",
+                         .title = "number of separate parts of the trail",
+                         .definition =
+                             "parts of the trail where α ≥ R/2, connected by edges or corners, of at least 16 pixels",
+                         .range = "0 …",
+                         .unit = "parts",
+                         .emptyWhen = "no R > 0.1",
+                         .perfect = "as the reference",
+                         .chartName = "parts of the trail",
+                         .isFlaw = true,
+                         .needs = Needs::continuum,
+                         .place = 17,
+                         .round = 1},
+                        {.column = "components_reference",
+                         .title = "number of separate parts of the reference's trail",
+                         .definition =
+                             "`components` of the continuum itself, since four wheels or a hill may divide the trail",
+                         .range = "0 …",
+                         .unit = "parts",
+                         .emptyWhen = "no R > 0.1",
+                         .perfect = "any",
+                         .needs = Needs::continuum,
+                         .place = 18,
+                         .round = 2}},
+            .ofMoment = ofMoment};
+}
+
+}  // namespace trail_gaps_metric
 
 }  // namespace dustbench::bench
