@@ -123,12 +123,15 @@ TEST_F(Published, ARowWithoutAPlaceIsAnErrorThatNamesIt) {
 
 TEST_F(Published, APointOfAnotherSeriesContradictsThePrintedNumbers) {
     write("numbers.csv",
-          "what,suite,of,columns,published,formula\nit,mud-loads,billboard sort=radix particles=400,fps_avg,28,\n");
+          "what,suite,of,columns,published,formula\nit,mud-loads,billboard sort=radix particles=400,fps_avg,28,\n"
+          "it,mud-loads,billboard sort=radix particles=200,fps_avg,++: too fast,\n");
     const std::string at = ",particles,400,fps_avg,frames/s,";
     EXPECT_EQ(faultOf("mud-loads,billboard sort=radix" + at + "28,28,a PC of 2006,it"), "");
     EXPECT_EQ(faultOf("mud-loads,billboard sort=none" + at + "66,66,a PC of 2006,it"), "");
     EXPECT_THAT(faultOf("mud-loads,billboard sort=radix" + at + "66,66,a PC of 2006,it"),
                 AllOf(HasSubstr("min: got '66'"), HasSubstr("28"), HasSubstr("numbers.csv")));
+    EXPECT_THAT(faultOf("mud-loads,billboard sort=radix,particles,200,fps_avg,frames/s,66,66,a PC of 2006,it"),
+                AllOf(HasSubstr("min: got '66'"), HasSubstr("++: too fast"), HasSubstr("numbers.csv")));
 }
 
 TEST_F(Published, AGroupShowsThoseOfItsSeries) {
