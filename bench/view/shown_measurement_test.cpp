@@ -138,7 +138,7 @@ TEST_F(ShownMeasurement, OfAViewerStartsWithTheNextFrame) {
     viewer.advance(1e9);
     viewer.press(Key::m, false);
     viewer.advance();
-    EXPECT_THAT(viewer.message(), HasSubstr("no runs can be started"));
+    EXPECT_THAT(viewer.message(), HasSubstr("cannot start runs"));
     MeasurementHooks hooks = children(measurementOf(viewer.state()), half);
     hooks.between = [&](const std::string& progress) {
         told_.push_back(progress);

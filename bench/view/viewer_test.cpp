@@ -261,7 +261,7 @@ TEST_F(ViewerTest, FlipsInPlaceWhileTheKeyIsHeld) {
 TEST_F(ViewerTest, ACameraPathOfKeysIsSavedAndFollowed) {
     Viewer viewer(small(), device_, saved());
     viewer.press(Key::k, true);
-    EXPECT_THAT(viewer.message(), HasSubstr("no keys yet"));
+    EXPECT_THAT(viewer.message(), HasSubstr("no keys; press K"));
     viewer.advance(1e9);
     std::vector<glm::dvec3> eyes;
     for (int key = 0; key < 3; ++key) {

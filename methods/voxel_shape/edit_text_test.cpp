@@ -158,7 +158,7 @@ TEST(EditText, BadInputIsSaidAndNothingIsWritten) {
         {"--carve", "box=1,1,1,0,0,0", "min lies beyond"},
         {"--carve", "sphere=0,1,0,0.5 colour=1,0,0", "unknown word"},
         {"--carve", "sphere=0,1,0,9", "no active voxel"},
-        {"--carve", "sphere=9,1,0,0.5", "meets no voxel"},
+        {"--carve", "sphere=9,1,0,0.5", "contains no voxel"},
         {"--carve", "mesh=" + open, "3 open edges"},
         {"--carve", "mesh=" + (folder.path() / "missing.obj").string(), "missing.obj"},
         {"--force", "sphere=0,1,0,0.5 kind=gravty", "did you mean 'gravity'"},

@@ -186,7 +186,7 @@ TEST(ShapeFile, SaysInOneLineWhatIsWrong) {
     expect(grid + "[[edit]]\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n", "changes nothing");
     expect(grid + "[[edit]]\nmin = [1, 0, 0]\nmax = [0, 1, 1]\nopacity = 0.1\n", "beyond its max");
     expect(grid + "[[edit]]\nmin = [0, 0, 0]\nradius_metres = 1\nopacity = 0.1\n", "either a box");
-    expect(grid + "[[edit]]\ncentre = [9, 0, 0]\nradius_metres = 1\nopacity = 0.1\n", "meets no voxel");
+    expect(grid + "[[edit]]\ncentre = [9, 0, 0]\nradius_metres = 1\nopacity = 0.1\n", "contains no voxel");
     expect(grid + "[[edit]]\ncentre = [0, 0, 0]\nradius_metres = 5\nactive = false\nopacity = 0.1\n",
            "contradicts itself");
     expect(grid + "[[edit]]\ncentre = [0, 0, 0]\nradius_metres = 5\nactive = false\n", "no active voxel");

@@ -85,7 +85,8 @@ TEST(MachineSet, CopiedRunsAreNoMeasurementsOfAnotherMachine) {
     for (auto& [id, run] : runs) run.provenance["started_utc"] = "2026-01-02T03:04:05Z";
     const MachineComparison comparison = compared({{"a", runs}, {"b", runs}});
     EXPECT_FALSE(comparison.isComparable());
-    EXPECT_THAT(comparison.remarks.notes, Contains("b: 12 of 12 runs are copies from another folder and left out"));
+    EXPECT_THAT(comparison.remarks.notes,
+                Contains("b: 12 of 12 runs were copied from another folder and are left out"));
 }
 
 TEST(MachineSet, NamesADamagedRunAndAFolderWithoutRuns) {
@@ -203,7 +204,7 @@ TEST(MachinesPage, IsWrittenToAFileOrAFolderAndOverNothingElse) {
     EXPECT_THAT(messageOf([&] { (void)writeMachinesPage(folder.path() / "mine.html", comparison); }),
                 HasSubstr("was not written by dustbench"));
     EXPECT_THAT(messageOf([&] { (void)writeMachinesPage(folder.path() / "a", comparison); }),
-                HasSubstr("which is the place of that folder's own report"));
+                HasSubstr("where that folder's own report is"));
     EXPECT_FALSE(fs::exists(folder.path() / "a/index.html"));
 }
 

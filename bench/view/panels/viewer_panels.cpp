@@ -199,7 +199,7 @@ void ViewerPanels::showFiles(Viewer& viewer) {
     if (ImGui::Button("Measure")) viewer.act(Action::measure);
     widgets_.note("Measure");
     ImGui::SameLine();
-    ImGui::TextDisabled("%d runs each, takes minutes", measuredRepetitions);
+    ImGui::TextDisabled("takes a few minutes");
     for (const std::string& sentence : viewer.measured()) ImGui::TextWrapped("%s", sentence.c_str());
 }
 

@@ -29,10 +29,10 @@ TEST(ObjFile, RefusesACornerWithAMissingPart) {
 }
 
 TEST(ObjFile, NamesTheLineAndWhatIsAllowed) {
-    EXPECT_THAT(objRefusal(corners + "f 1 2 77\n"), HasSubstr("m.obj:4: a face names vertex '77', expected 1..3"));
-    EXPECT_THAT(objRefusal(corners + "f 1 2 0\n"), HasSubstr("names vertex '0'"));
-    EXPECT_THAT(objRefusal(corners + "f 1 2 -4\n"), HasSubstr("names vertex '-4'"));
-    EXPECT_THAT(objRefusal(corners + "f 1//1 2//1 3//9\n"), HasSubstr("names normal '1', expected 1..0"));
+    EXPECT_THAT(objRefusal(corners + "f 1 2 77\n"), HasSubstr("m.obj:4: a face refers to vertex '77', expected 1..3"));
+    EXPECT_THAT(objRefusal(corners + "f 1 2 0\n"), HasSubstr("refers to vertex '0'"));
+    EXPECT_THAT(objRefusal(corners + "f 1 2 -4\n"), HasSubstr("refers to vertex '-4'"));
+    EXPECT_THAT(objRefusal(corners + "f 1//1 2//1 3//9\n"), HasSubstr("refers to normal '1', expected 1..0"));
     EXPECT_THAT(objRefusal("v 0 0 nan\n"), HasSubstr("m.obj:1: got 'nan', expected a number"));
     EXPECT_THAT(objRefusal("v 0 0 1e39\n"), HasSubstr("expected a number in the range of a float"));
     EXPECT_THAT(objRefusal("v 0 0\n"), HasSubstr("got 2 numbers after 'v', expected 3..7"));
