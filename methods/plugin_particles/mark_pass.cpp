@@ -51,7 +51,7 @@ scene::Mesh ballMesh() {
 
 /// Three bars along the axes, of half length 1.
 scene::Mesh crossMesh() {
-    constexpr float thin = 0.06f;
+    constexpr float thin = 0.25f;
     scene::Mesh mesh;
     for (int axis = 0; axis < 3; ++axis) {
         glm::vec3 half(thin);

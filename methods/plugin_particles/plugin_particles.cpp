@@ -103,6 +103,12 @@ void PluginParticles::prepare(const scene::Scene& scene, const RunSetup& setup, 
     if (setup.particles > 0 && setup.particles < static_cast<std::int64_t>(count))
         throw InputError("parameter particles: got " + std::to_string(setup.particles) + ", allowed: 0, or at least " +
                          std::to_string(count) + ", one for each system");
+    const auto starts = [](const auto& event) { return !event->action().starts.empty(); };
+    for (const particles::NamedParts& each : parts_)
+        if (setup.particles > 0 && std::ranges::any_of(each.parts->events(), starts))
+            throw InputError("parameter particles: got " + std::to_string(setup.particles) +
+                             ", allowed: 0 where events start particles, as those of the system '" + each.name +
+                             "' do");
     for (std::size_t i = 0; i < count; ++i)
         systems_.push_back({std::move(parts_[i].name),
                             particles::ParticleSystem(std::move(parts_[i].parts), seedOf(i, setup.seed)),

@@ -26,7 +26,8 @@ class PluginParticles final : public Method {
     /// time, or an event names a system that does not exist.
     explicit PluginParticles(std::vector<particles::NamedParts> systems, std::vector<Change> changes = {});
 
-    /// Throws InputError if fewer particles are requested than there are systems.
+    /// Throws InputError if fewer particles are requested than there are systems, or any number with events that start
+    /// particles.
     void prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) override;
     void update(const Frame& frame) override;
     void draw(const Frame& frame, gpu::Layer& layer) override;

@@ -1,41 +1,111 @@
 #include "methods/kit/particles/flock.h"
 
+#include "methods/kit/lanes/lanes.h"
 #include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::particles {
 namespace {
 
-constexpr std::size_t flockBlock = 512;
+using lanes::Float16;
+using lanes::Int16;
+constexpr std::size_t flockBlock = 512, flockLanes = 16;
+constexpr Int16 laneNumbers{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+/// FlockSums of 16 neighbours at a time; velocities of the neighbours, not relative.
+struct LaneSums {
+    Float16 apartX{}, apartY{}, apartZ{}, offsetX{}, offsetY{}, offsetZ{}, velocityX{}, velocityY{}, velocityZ{};
+    Int16 seen{};
+};
+
+using FlockColumns = std::array<std::vector<float>, 6>;
+
+[[gnu::always_inline]] inline Float16 where(const Int16& mask, const Float16& value) {
+    return mask ? value : Float16{};
+}
+
+[[gnu::always_inline]] inline void addRun(const FlockColumns& c, const PointGrid::Run& run, const glm::vec3& self,
+                                          float near2, float reach2, LaneSums& s) {
+    for (std::uint32_t k = run.first; k < run.end; k += flockLanes) {
+        const Float16 x = lanes::load<Float16>(&c[0][k]) - self.x, y = lanes::load<Float16>(&c[1][k]) - self.y,
+                      z = lanes::load<Float16>(&c[2][k]) - self.z;
+        const Float16 squared = x * x + y * y + z * z;
+        const Int16 sees = (squared < reach2) & (squared > 0.0f) & (laneNumbers < static_cast<int>(run.end - k));
+        const Int16 isNear = sees & (squared < near2);
+        const Float16 inverse = 1.0f / squared;
+        s.apartX -= where(isNear, x * inverse);
+        s.apartY -= where(isNear, y * inverse);
+        s.apartZ -= where(isNear, z * inverse);
+        s.offsetX += where(sees, x);
+        s.offsetY += where(sees, y);
+        s.offsetZ += where(sees, z);
+        s.velocityX += where(sees, lanes::load<Float16>(&c[3][k]));
+        s.velocityY += where(sees, lanes::load<Float16>(&c[4][k]));
+        s.velocityZ += where(sees, lanes::load<Float16>(&c[5][k]));
+        s.seen -= sees;
+    }
+}
+
+/// In halves, so that the order is that of the machine's shuffles and the same everywhere.
+template <typename Vector>
+[[gnu::always_inline]] inline auto sumOf(const Vector& vector) {
+    auto v = vector;
+    for (int half = flockLanes / 2; half > 0; half /= 2)
+        for (int i = 0; i < half; ++i) v[i] += v[i + half];
+    return v[0];
+}
+
+FlockSums total(const LaneSums& s, const glm::vec3& velocity) {
+    FlockSums sums;
+    sums.seen = static_cast<float>(sumOf(s.seen));
+    if (sums.seen == 0) return sums;
+    sums.apart = {sumOf(s.apartX), sumOf(s.apartY), sumOf(s.apartZ)};
+    sums.offset = {sumOf(s.offsetX), sumOf(s.offsetY), sumOf(s.offsetZ)};
+    sums.velocity = glm::vec3(sumOf(s.velocityX), sumOf(s.velocityY), sumOf(s.velocityZ)) - sums.seen * velocity;
+    return sums;
+}
 
 }  // namespace
 
 void Flock::accelerate(const FlockRules& rules, const FlockState& s, std::span<glm::vec3> accelerations) {
-    const float reach2 = rules.sightMetres * rules.sightMetres;
     grid_.build(s.x, s.y, s.z, rules.sightMetres);
-    boids_.resize(s.x.size());
-    parallel::forEachBlock(boids_.size(), 8192, [&](std::size_t first, std::size_t count) {
+    const std::array from{s.x, s.y, s.z, s.velocityX, s.velocityY, s.velocityZ};
+    for (auto& column : columns_) column.resize(s.x.size() + flockLanes);
+    parallel::forEachBlock(s.x.size(), 8192, [&](std::size_t first, std::size_t count) {
+        for (std::size_t c = 0; c < from.size(); ++c)
+            for (std::size_t place = first; place < first + count; ++place)
+                columns_[c][place] = from[c][grid_.order()[place]];
+    });
+    const float near2 = rules.nearMetres * rules.nearMetres, reach2 = rules.sightMetres * rules.sightMetres;
+    parallel::forEachBlock(s.x.size(), flockBlock, [&](std::size_t first, std::size_t count) {
         for (std::size_t place = first; place < first + count; ++place) {
-            const std::uint32_t i = grid_.order()[place];
-            boids_[place] = {{s.x[i], s.y[i], s.z[i]}, {s.velocityX[i], s.velocityY[i], s.velocityZ[i]}};
+            const glm::vec3 self(columns_[0][place], columns_[1][place], columns_[2][place]);
+            LaneSums sums;
+            grid_.forEachRun(self,
+                             [&](const PointGrid::Run& run) { addRun(columns_, run, self, near2, reach2, sums); });
+            const glm::vec3 velocity(columns_[3][place], columns_[4][place], columns_[5][place]);
+            accelerations[grid_.order()[place]] = total(sums, velocity).acceleration(rules);
         }
     });
-    parallel::forEachBlock(boids_.size(), flockBlock, [&](std::size_t first, std::size_t count) {
-        std::uint32_t cell = 0xffffffff;
-        std::array<PointGrid::Run, 9> runs{};
-        for (std::size_t place = first; place < first + count; ++place) {
-            if (grid_.cellOf(place) != cell) runs = grid_.around(cell = grid_.cellOf(place));
-            const Boid self = boids_[place];
-            FlockSums sums;
-            for (const PointGrid::Run& run : runs)
-                for (std::uint32_t j = run.first; j < run.end; ++j) {
-                    const glm::vec3 to = boids_[j].position - self.position;
-                    const float squared = glm::dot(to, to);
-                    if (squared < reach2 && squared > 0)
-                        sums.add(to, boids_[j].velocity - self.velocity, squared, rules);
-                }
-            accelerations[grid_.order()[place]] = sums.acceleration(rules);
-        }
-    });
+}
+
+void accelerateOneByOne(const FlockRules& rules, const FlockState& s, std::span<glm::vec3> accelerations) {
+    const float reach2 = rules.sightMetres * rules.sightMetres;
+    PointGrid grid;
+    grid.build(s.x, s.y, s.z, rules.sightMetres);
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+        const glm::vec3 self(s.x[i], s.y[i], s.z[i]), velocity(s.velocityX[i], s.velocityY[i], s.velocityZ[i]);
+        FlockSums sums;
+        grid.forEachRun(self, [&](const PointGrid::Run& run) {
+            for (std::uint32_t k = run.first; k < run.end; ++k) {
+                const std::uint32_t j = grid.order()[k];
+                const glm::vec3 to = glm::vec3(s.x[j], s.y[j], s.z[j]) - self;
+                const float squared = glm::dot(to, to);
+                if (squared < reach2 && squared > 0)
+                    sums.add(to, glm::vec3(s.velocityX[j], s.velocityY[j], s.velocityZ[j]) - velocity, squared, rules);
+            }
+        });
+        accelerations[i] = sums.acceleration(rules);
+    }
 }
 
 void accelerateByAllPairs(const FlockRules& rules, const FlockState& s, std::span<glm::vec3> accelerations) {

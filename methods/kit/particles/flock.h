@@ -3,12 +3,14 @@
 //     a_i = s·Σ_near (x_i − x_j)/d²  +  m·(mean v_j − v_i)  +  c·(mean x_j − x_i)
 //           separation, d < near        matching, d < sight     cohesion, d < sight
 //
-// Units: m, m/s, m/s². Owns: its grid. Threads: spreads boids over the current oneTBB arena; every boid sums its
-// neighbours in the order of the grid, so that results are the same for any number of threads.
-// Source: Reynolds1987, 3. Departs: boids see in all directions; the rules' accelerations are added, not taken by
-// priority.
+// Boids are copied in the order of the grid's cells, a column for each coordinate, so that neighbours are contiguous:
+// 16 at a time, whatever the machine's registers, so that every build gives the same sums. Units: m, m/s, m/s². Owns:
+// its grid and columns. Threads: spreads boids over the current oneTBB arena; every boid sums its neighbours in the
+// order of the grid, so that results are the same for any number of threads. Source: Reynolds1987, 3. Departs: boids
+// see in all directions; the rules' accelerations are added, not taken by priority.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -51,17 +53,15 @@ class Flock {
     /// Writes the acceleration of every boid.
     void accelerate(const FlockRules& rules, const FlockState& state, std::span<glm::vec3> accelerations);
 
-    [[nodiscard]] std::size_t bytes() const { return grid_.bytes() + boids_.capacity() * sizeof(Boid); }
+    [[nodiscard]] std::size_t bytes() const { return grid_.bytes() + 6 * columns_[0].capacity() * sizeof(float); }
 
  private:
-    struct Boid {
-        glm::vec3 position, velocity;
-    };
-
     PointGrid grid_;
-    std::vector<Boid> boids_;  ///< in the order of the grid
+    std::array<std::vector<float>, 6> columns_;  ///< x y z and velocity, in the order of the grid, then 16 more
 };
 
+/// The same, one neighbour at a time, in the order of the grid: a reference for tests with many boids.
+void accelerateOneByOne(const FlockRules& rules, const FlockState& state, std::span<glm::vec3> accelerations);
 /// The same by all pairs: the reference for tests.
 void accelerateByAllPairs(const FlockRules& rules, const FlockState& state, std::span<glm::vec3> accelerations);
 

@@ -1,20 +1,11 @@
 #include "methods/kit/particles/point_grid.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::particles {
 namespace {
 
 constexpr std::size_t gridBlock = 8192;
-
-/// Number of the cell along an axis; points that are not finite are in the first.
-int cellAlong(float coordinate, float minimum, float perEdge, int cells) {
-    const float at = (coordinate - minimum) * perEdge;
-    return at > 0 ? static_cast<int>(std::min(at, static_cast<float>(cells - 1))) : 0;
-}
 
 }  // namespace
 
@@ -28,7 +19,7 @@ void PointGrid::chooseCells(std::span<const float> x, std::span<const float> y, 
     }
     minimum_ = low;
     const double most = 4 * static_cast<double>(x.size()) + 64;
-    double edge = static_cast<double>(reachMetres);
+    double edge = static_cast<double>(reachMetres) / 2;
     const glm::dvec3 extent(high - low);
     const auto cellsAt = [&] { return glm::floor(extent / edge) + 1.0; };
     for (glm::dvec3 cells = cellsAt(); cells.x * cells.y * cells.z > most && edge < 1e30; cells = cellsAt())
@@ -36,18 +27,19 @@ void PointGrid::chooseCells(std::span<const float> x, std::span<const float> y, 
     perEdge_ = static_cast<float>(1 / edge);
     const glm::dvec3 cells = cellsAt();
     cells_ = cells.x * cells.y * cells.z <= most ? glm::ivec3(cells) : glm::ivec3(1);
+    slack_ = 0.01f + 5e-7f * static_cast<float>(std::max({cells_.x, cells_.y, cells_.z}));
+    reach_ = reachMetres + static_cast<float>(static_cast<double>(slack_) * edge);
 }
 
 void PointGrid::build(std::span<const float> x, std::span<const float> y, std::span<const float> z, float reachMetres) {
     const std::size_t count = x.size();
-    for (auto* column : {&cellOfPoint_, &cellOfPlace_, &order_}) column->resize(count);
-    // A cell is a little larger than the reach: rounding must not put a neighbour two cells away.
-    chooseCells(x, y, z, 1.0001f * reachMetres);
+    for (auto* column : {&cellOfPoint_, &order_}) column->resize(count);
+    chooseCells(x, y, z, reachMetres);
     parallel::forEachBlock(count, gridBlock, [&](std::size_t first, std::size_t number) {
         for (std::size_t i = first; i < first + number; ++i) {
-            const int column = cellAlong(x[i], minimum_.x, perEdge_, cells_.x);
-            const int row = cellAlong(y[i], minimum_.y, perEdge_, cells_.y);
-            const int layer = cellAlong(z[i], minimum_.z, perEdge_, cells_.z);
+            const int column = cellAlong(x[i], 0);
+            const int row = cellAlong(y[i], 1);
+            const int layer = cellAlong(z[i], 2);
             cellOfPoint_[i] = static_cast<std::uint32_t>(column + cells_.x * (row + cells_.y * layer));
         }
     });
@@ -59,33 +51,14 @@ void PointGrid::build(std::span<const float> x, std::span<const float> y, std::s
     for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
     // Each point takes the next place of its cell, which moves the beginnings; they are moved back afterwards.
     for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t place = begin_[cellOfPoint_[i]]++;
-        order_[place] = static_cast<std::uint32_t>(i);
-        cellOfPlace_[place] = cellOfPoint_[i];
+        order_[begin_[cellOfPoint_[i]]++] = static_cast<std::uint32_t>(i);
     }
     std::copy_backward(begin_.begin(), begin_.end() - 1, begin_.end());
     begin_[0] = 0;
 }
 
-std::array<PointGrid::Run, 9> PointGrid::around(std::uint32_t cell) const {
-    const auto number = static_cast<int>(cell);
-    const glm::ivec3 at(number % cells_.x, number / cells_.x % cells_.y, number / (cells_.x * cells_.y));
-    const int firstColumn = std::max(at.x - 1, 0), endColumn = std::min(at.x + 2, cells_.x);
-    std::array<Run, 9> runs{};
-    std::size_t next = 0;
-    for (int layer = at.z - 1; layer <= at.z + 1; ++layer)
-        for (int row = at.y - 1; row <= at.y + 1; ++row, ++next) {
-            if (layer < 0 || layer >= cells_.z || row < 0 || row >= cells_.y) continue;
-            const int line = cells_.x * (row + cells_.y * layer);
-            runs[next] = {begin_[static_cast<std::size_t>(line + firstColumn)],
-                          begin_[static_cast<std::size_t>(line + endColumn)]};
-        }
-    return runs;
-}
-
 std::size_t PointGrid::bytes() const {
-    return (cellOfPoint_.capacity() + cellOfPlace_.capacity() + order_.capacity() + begin_.capacity()) *
-           sizeof(std::uint32_t);
+    return (cellOfPoint_.capacity() + order_.capacity() + begin_.capacity()) * sizeof(std::uint32_t);
 }
 
 }  // namespace dustbench::particles
