@@ -25,7 +25,6 @@
 #include "methods/kit/draw/opaque_scene.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/gpu/device.h"
-#include "methods/kit/gpu/framebuffer.h"
 #include "methods/kit/gpu/layer.h"
 #include "methods/kit/gpu/program.h"
 #include "methods/kit/gpu/sort/depth_keys.h"
@@ -331,7 +330,6 @@ void sortNumbers(gpu::Device& device) {
 /// Dust in GPU buffers, of one colour and of two: its steps, and the methods that take it.
 void drawGpuDust(gpu::Device& device) {
     const gpu::Texture depth = gpu::Texture::make2D(device, "depth", gpu::Format::depth32F, width, height);
-    gpu::Framebuffer(device, "depth", nullptr, &depth).clearDepth();
     gpu::Layer layer(device, depth);
     const StageClock untimed;
     for (const char* scene : {"plain", "two_soils"}) {
@@ -340,21 +338,16 @@ void drawGpuDust(gpu::Device& device) {
         world.step();
         const scene::View view = world.view(width, height);
         const Frame now{0, bench::stepSeconds, world.state(), Puffs{}, view, untimed, world.gpuDust()};
-        const auto show = [&](const MethodInfo& info, const Values& values) {
-            ParameterValues given(info.parameters);
-            for (const auto& [name, value] : values) given.set(name, value);
-            if (!info.takesGpuDust || !info.takesGpuDust(given)) return;
-            const auto method = info.create(given);
-            method->prepare(world.scene(), {}, device);
-            method->update(now);
-            layer.clear();
-            method->draw(now, layer);
-        };
-        for (const Product& product : products)
-            if (const auto info = std::ranges::find(methods(), product.method, &MethodInfo::id);
-                product.showsDust && info != methods().end())
-                forEachCombination(*info, product.fixed, product.parameters,
-                                   [&](const Values& values) { show(*info, values); });
+        for (const MethodInfo& info : methods())
+            for (const char* soft : {"off", "on"}) {
+                ParameterValues values(info.parameters);
+                if (info.parameters.find("soft")) values.set("soft", soft);
+                if (!info.takesGpuDust || !info.takesGpuDust(values)) continue;
+                const auto method = info.create(values);
+                method->prepare(world.scene(), {}, device);
+                method->update(now);
+                method->draw(now, layer);
+            }
     }
 }
 
