@@ -45,18 +45,18 @@ class Play {
     std::vector<std::pair<std::string, std::unique_ptr<ParticleSystem>>> systems_;
 };
 
-std::string named(const std::string& name, const std::string& parts) {
+std::string systemNamed(const std::string& name, const std::string& parts) {
     return "[[system]]\nname = \"" + name + "\"\n" + parts +
            "colour = { part = \"constant\" }\nsize = { part = \"constant\", radius_metres = 0 }\n";
 }
 
 const std::string forEver = "life = [ { part = \"lifetime\", average_seconds = 1e5, variation_seconds = 0 } ]\n";
-const std::string still = "velocity = { part = \"fixed\", speed = 0 }\n";
+const std::string atRest = "velocity = { part = \"fixed\", speed = 0 }\n";
 
 /// Particles that events start, and which stay where they were born.
-std::string started(const std::string& name, const std::string& velocity = still) {
-    return named(name, "emission = { part = \"on_event\" }\nposition = { part = \"point\", at = \"place\" }\n" +
-                           velocity + forEver);
+std::string started(const std::string& name, const std::string& velocity = atRest) {
+    return systemNamed(name, "emission = { part = \"on_event\" }\nposition = { part = \"point\", at = \"place\" }\n" +
+                                 velocity + forEver);
 }
 
 /// `count` particles of a ball at 3 m, which fly down.
@@ -65,11 +65,12 @@ std::string flying(int count, double perSecond, const std::string& rest) {
         perSecond > 0
             ? "part = \"stream\", rate_per_metre = 0, rate_per_second = " + std::to_string(perSecond)
             : "part = \"bursts\", duration_seconds = 0, interval_seconds = 1e6, count = " + std::to_string(count);
-    return named("drops", "emission = { " + emission +
-                              " }\nposition = { part = \"sphere\", at = \"place\", place = [0, 3, 0], radius_metres = "
-                              "1 }\nvelocity = { part = \"cone\", direction = [0, -1, 0], half_angle_degrees = 20, "
-                              "speed = 30, variation = 0.4 }\n" +
-                              rest);
+    return systemNamed("drops",
+                       "emission = { " + emission +
+                           " }\nposition = { part = \"sphere\", at = \"place\", place = [0, 3, 0], radius_metres = "
+                           "1 }\nvelocity = { part = \"cone\", direction = [0, -1, 0], half_angle_degrees = 20, "
+                           "speed = 30, variation = 0.4 }\n" +
+                           rest);
 }
 
 TEST(Events, EveryDeathAtASurfaceStartsItsParticlesThere) {
@@ -93,7 +94,8 @@ TEST(Events, EveryDeathAtASurfaceStartsItsParticlesThere) {
 
 TEST(Events, EveryCollisionIsReportedOnceWithPlaceVelocityAndNormal) {
     // Bounces between two planes, 2 m apart, at 3 m/s: a contact each 2/3 s, the first after 1/3 s.
-    Play play(named("ball",
+    Play play(
+        systemNamed("ball",
                     "emission = { part = \"bursts\", duration_seconds = 0, interval_seconds = 1e6, count = 700 }\n"
                     "position = { part = \"point\", at = \"place\", place = [0, 1, 0] }\n"
                     "velocity = { part = \"fixed\", direction = [0, 1, 0], speed = 3 }\n" +
@@ -151,10 +153,11 @@ TEST(Events, EveryEntryIntoARegionIsReportedOnceEvenInTheStepOfBirth) {
 
 TEST(Events, TimersRingAtTheirTimesWhateverTheStep) {
     for (const double seconds : {1.0 / 60, 1.0 / 7, 0.9}) {
-        Play play(named("clock",
+        Play play(
+            systemNamed("clock",
                         "emission = { part = \"on_event\" }\nposition = { part = \"point\", at = \"place\", place = "
                         "[0, 9, 0] }\n" +
-                            still + forEver +
+                            atRest + forEver +
                             "event = [ { part = \"timer\", first_seconds = 0.5, interval_seconds = 0.25, place = [1, "
                             "2, 3], starts = \"clock\", count = 2 }, { part = \"timer\", first_seconds = 2, starts = "
                             "\"clock\", at = \"source\" } ]\n"));
@@ -172,14 +175,15 @@ TEST(Events, TimersRingAtTheirTimesWhateverTheStep) {
 
 TEST(Events, NewbornsHaveTheShareOfTheVelocityAndTheSurfaceAsTheirGround) {
     // Up to a ceiling that is inclined by 45°: the cone's axis is its normal.
-    Play play(named("rockets",
+    Play play(
+        systemNamed("rockets",
                     "emission = { part = \"bursts\", duration_seconds = 0, interval_seconds = 1e6, count = 1 }\n"
                     "position = { part = \"point\", at = \"place\" }\n"
                     "velocity = { part = \"fixed\", direction = [0, 1, 0], speed = 8 }\n" +
                         forEver +
                         "force = [ { part = \"bounce\", shape = \"half_space\", place = [0, 2, 0], normal = [-1, -1, "
                         "0] } ]\nevent = [ { part = \"collision\", starts = \"sparks\", inherit = 0.25 } ]\n") +
-              started("sparks", "velocity = { part = \"cone\", half_angle_degrees = 0, speed = 4, variation = 0 }\n"));
+        started("sparks", "velocity = { part = \"cone\", half_angle_degrees = 0, speed = 4, variation = 0 }\n"));
     play.step(32);
     const ParticleStore& s = play[1].store();
     ASSERT_EQ(s.size(), 1u);
@@ -194,16 +198,16 @@ TEST(Events, StopResumeChangeAndRespectTheirLimits) {
     const std::string source =
         "emission = { part = \"stream\", rate_per_metre = 0, rate_per_second = 64 }\n"
         "position = { part = \"point\", at = \"place\" }\n" +
-        still + forEver;
-    Play play(named("stream", source +
-                                  "event = [ { part = \"timer\", first_seconds = 1, stops = \"stream\" }, "
-                                  "{ part = \"timer\", first_seconds = 2, resumes = \"stream\" }, "
-                                  "{ part = \"timer\", first_seconds = 3, changes = \"stream.emission.rate_per_second"
-                                  "\", to = \"128\" }, "
-                                  "{ part = \"birth\", starts = \"few\", limit = 10 }, "
-                                  "{ part = \"birth\", starts = \"some\", share = 0.25 }, "
-                                  "{ part = \"timer\", first_seconds = 3.5, place = [7, 8, 9], changes = "
-                                  "\"some.position.place\", to = \"place\" } ]\n") +
+        atRest + forEver;
+    Play play(systemNamed("stream",
+                          source + "event = [ { part = \"timer\", first_seconds = 1, stops = \"stream\" }, "
+                                   "{ part = \"timer\", first_seconds = 2, resumes = \"stream\" }, "
+                                   "{ part = \"timer\", first_seconds = 3, changes = \"stream.emission.rate_per_second"
+                                   "\", to = \"128\" }, "
+                                   "{ part = \"birth\", starts = \"few\", limit = 10 }, "
+                                   "{ part = \"birth\", starts = \"some\", share = 0.25 }, "
+                                   "{ part = \"timer\", first_seconds = 3.5, place = [7, 8, 9], changes = "
+                                   "\"some.position.place\", to = \"place\" } ]\n") +
               started("few") + started("some"));
     play.step(64);
     EXPECT_NEAR(static_cast<double>(play.born(0)), 64, 1);
@@ -228,11 +232,11 @@ TEST(Events, AreTheSameBitForBitAtAnyNumberOfThreads) {
                          "event = [ { part = \"collision\", starts = \"splash\", count = 2, share = 0.7, inherit = 0.1 "
                          "}, { part = \"death\", starts = \"steam\", share = 0.5 }, { part = \"region\", place = [0, "
                          "1, 0], starts = \"steam\" } ]\n") +
-                  named("splash",
-                        "emission = { part = \"on_event\" }\nposition = { part = \"sphere\", at = "
-                        "\"place\", radius_metres = 0.1 }\nvelocity = { part = \"random\" }\nlife = [ { part "
-                        "= \"lifetime\", average_seconds = 0.1, variation_seconds = 0.05 } ]\n"
-                        "event = [ { part = \"death\", starts = \"steam\" } ]\n") +
+                  systemNamed("splash",
+                              "emission = { part = \"on_event\" }\nposition = { part = \"sphere\", at = "
+                              "\"place\", radius_metres = 0.1 }\nvelocity = { part = \"random\" }\nlife = [ { part "
+                              "= \"lifetime\", average_seconds = 0.1, variation_seconds = 0.05 } ]\n"
+                              "event = [ { part = \"death\", starts = \"steam\" } ]\n") +
                   started("steam", "velocity = { part = \"random\" }\n"));
         tbb::task_arena(threads).execute([&] { play.step(60); });
         EXPECT_GT(play[1].store().size(), 1000u);
