@@ -156,6 +156,9 @@ std::string partWithoutShader(const PartList& parts) {
     for (const Part* part : parts.all())
         if (!hasShader(*part))
             return "the part " + std::string(particles::kindName(part->kind())) + " '" + part->name() + "'";
+    const ParameterValues& life = parts.lifetime().values();
+    if (life.real("per_speed") != 0 || particles::vectorOf(life, "per_metre", particles::spaceAxes) != glm::dvec3(0))
+        return "a lifetime by speed or place";
     if (parts.forces().size() > maximumForces) return "a list of more than 16 forces";
     return {};
 }
