@@ -49,10 +49,10 @@ TEST(RunSpec, EveryFieldTellsRunsApart) {
     specs[12].repetition = 2;
     for (std::size_t i = 13; i < specs.size(); ++i) specs[i].volumes.emplace();
     specs[14].volumes->frames = {0, 8, 4};
-    specs[15].volumes->formats = {VolumeFormat::vti, VolumeFormat::vtp};
+    specs[15].volumes->formats = {"vti", "vtp"};
     specs[16].volumes->resolution = 64;
     specs[17].volumes->region = Box{{0, 0, 0}, {1, 2, 3}};
-    specs[18].volumes->vdbPrecision = VdbPrecision::single;
+    specs[18].volumes->setOption("vdb_precision", "float");
     std::set<std::string> ids;
     for (const RunSpec& spec : specs) ids.insert(runId(spec));
     EXPECT_EQ(ids.size(), specs.size());
