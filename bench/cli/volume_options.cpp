@@ -1,5 +1,9 @@
 #include "bench/cli/volume_options.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "bench/export/exporter.h"
 #include "methods/contract/errors.h"
 
 namespace dustbench::cli {
@@ -16,24 +20,27 @@ void VolumeOptions::declareOptional(Arguments& arguments) {
 }
 
 void VolumeOptions::declareRest(Arguments& arguments) {
-    arguments.text("--format", "NAME,NAME…",
-                   "formats of volumes: vti (grid), htg (octree), vtp (particles), vdb (OpenVDB); default: vti",
-                   formats_);
+    std::string formats;
+    for (const bench::Exporter& exporter : bench::exporters())
+        formats += fmt::format("{}{} ({})", formats.empty() ? "" : ", ", exporter.id, exporter.kind);
+    arguments.text("--format", "NAME,NAME…", "formats of volumes: " + formats + "; default: vti", formats_);
     arguments.text("--resolution", "N", "voxels along the longest edge of a grid, at most 2048; default: 128",
                    resolution_);
     arguments.text("--region", "x0,y0,z0,x1,y1,z1",
                    "box that the grids cover, in metres; default: the extent of each frame's cloud", region_);
-    arguments.text("--vdb-precision", "half|float", "precision of .vdb; default: half", precision_);
+    for (const bench::ExporterOption& option : bench::exporterOptions())
+        arguments.text(option.commandName(), fmt::format("{}", fmt::join(option.words, "|")), option.help,
+                       options_[option.id]);
 }
 
 std::optional<bench::VolumeSettings> VolumeOptions::over(const std::optional<bench::VolumeSettings>& base) const {
     if (!base && frames_.empty()) {
-        for (const auto& [name, given] : {std::pair("--format", !formats_.empty()),
-                                          {"--resolution", !resolution_.empty()},
-                                          {"--region", !region_.empty()},
-                                          {"--vdb-precision", !precision_.empty()}})
-            if (given)
-                throw InputError(std::string(name) + ": given without " + framesName_ + ", which selects the frames");
+        std::vector<std::pair<std::string, bool>> all{
+            {"--format", !formats_.empty()}, {"--resolution", !resolution_.empty()}, {"--region", !region_.empty()}};
+        for (const bench::ExporterOption& option : bench::exporterOptions())
+            all.emplace_back(option.commandName(), !options_.at(option.id).empty());
+        for (const auto& [name, given] : all)
+            if (given) throw InputError(name + ": given without " + framesName_ + ", which selects the frames");
         return std::nullopt;
     }
     bench::VolumeSettings settings = base.value_or(bench::VolumeSettings());
@@ -41,7 +48,8 @@ std::optional<bench::VolumeSettings> VolumeOptions::over(const std::optional<ben
     if (!formats_.empty()) settings.formats = bench::parseFormats(formats_);
     if (!resolution_.empty()) settings.resolution = bench::parseResolution(resolution_);
     if (!region_.empty()) settings.region = bench::parseRegion(region_);
-    if (!precision_.empty()) settings.vdbPrecision = bench::vdbPrecisions.parse("vdb precision", precision_);
+    for (const auto& [id, word] : options_)
+        if (!word.empty()) settings.setOption(id, word);
     return settings;
 }
 

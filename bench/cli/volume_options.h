@@ -1,6 +1,7 @@
 // The options of `export`, `run` and `suite` that select volumes.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -24,7 +25,8 @@ class VolumeOptions {
     void declareRest(Arguments& arguments);
 
     std::string framesName_;
-    std::string frames_, formats_, resolution_, region_, precision_;
+    std::string frames_, formats_, resolution_, region_;
+    std::map<std::string, std::string> options_;  ///< of formats, by id
 };
 
 }  // namespace dustbench::cli

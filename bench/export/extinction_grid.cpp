@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bench/export/exporter.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/maths/transmittance.h"
 #include "methods/kit/parallel/for_each_block.h"
@@ -158,10 +159,15 @@ GridPlan planGrid(const std::optional<Box>& box, int resolution) {
 }
 
 void requireMemory(const GridPlan& plan, const VolumeSettings& settings, std::int64_t availableBytes) {
-    // OpenVDB keeps a second copy, in blocks: in the worst case all cells, plus a tenth for the tree.
-    const bool grid = settings.wants(VolumeFormat::vti), vdb = settings.wants(VolumeFormat::vdb);
-    if (!grid && !vdb) return;
-    const std::int64_t needed = plan.bytes() + (vdb ? plan.bytes() / 10 * 11 : 0);
+    bool needsGrid = false;
+    int tenths = 0;  // one format is written after the other
+    for (const std::string& format : settings.formats) {
+        const Exporter& exporter = exporterOf(format);
+        needsGrid = needsGrid || exporter.writeGrid;
+        tenths = std::max(tenths, exporter.gridTenths);
+    }
+    if (!needsGrid) return;
+    const std::int64_t needed = plan.bytes() + plan.bytes() / 10 * tenths;
     if (needed <= availableBytes) return;
     throw InputError(
         fmt::format("resolution: a grid of {}x{}x{} cells needs {}, but only {} are available; allowed: "

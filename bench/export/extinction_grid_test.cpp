@@ -182,9 +182,9 @@ TEST(ExtinctionGrid, ThatNeedsMoreThanThereIsIsRefusedWithBothNumbers) {
     EXPECT_NO_THROW(requireMemory(plan, settings, bytes));
     EXPECT_THAT(inputError([&] { requireMemory(plan, settings, bytes - 1); }),
                 testing::AllOf(HasSubstr(std::to_string(bytes)), HasSubstr(std::to_string(bytes - 1))));
-    settings.formats = {VolumeFormat::vti, VolumeFormat::vdb};
+    settings.formats = {"vti", "vdb"};
     EXPECT_THAT(inputError([&] { requireMemory(plan, settings, 2 * bytes); }), HasSubstr(std::to_string(2 * bytes)));
-    settings.formats = {VolumeFormat::vtp};  // needs no grid
+    settings.formats = {"vtp"};  // needs no grid
     EXPECT_NO_THROW(requireMemory(plan, settings, 0));
 }
 

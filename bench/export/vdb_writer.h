@@ -11,6 +11,8 @@
 
 namespace dustbench::bench {
 
+enum class VdbPrecision { half, single };
+
 /// Sparse: cells without extinction are not stored. Written completely or not at all. Throws InputError if the file
 /// cannot be written, or if half floats cannot represent the maximum value.
 void writeVdb(const ExtinctionGrid& grid, VdbPrecision precision, std::int64_t frame, double timeSeconds,

@@ -85,7 +85,9 @@ TEST_P(VdbFile, HasTheSameSumAtTheSamePlaceInTheWorld) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Precisions, VdbFile, testing::Values(VdbPrecision::half, VdbPrecision::single),
-                         [](const auto& precision) { return std::string(vdbPrecisions.wordOf(precision.param)); });
+                         [](const auto& precision) {
+                             return precision.param == VdbPrecision::half ? "half" : "float";
+                         });
 
 TEST(VdbFileOf, AnEmptyCloudCanBeRead) {
     const TestFolder folder;

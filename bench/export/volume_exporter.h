@@ -4,41 +4,26 @@
 // particles.pvd density.vdb.series scene.pvd` over the frames; `f000120_ID.vtp ID.pvd` of a method's own particles,
 // `f000120_ID.vti .vdb ID_grid.pvd ID_grid.vdb.series` of its own grid; `f000120_ID_NAME.vtp ID_NAME.pvd` and
 // `f000120_ID_NAME_heights.exr ID_NAME_heights.exr.series` of each surface that it changes, with `.vtp`. The scene is
-// written with every format except .vdb. ParaView takes origin, spacing and size of `extinction.vti.series` from its
-// first file, and misplaces the others if theirs differ; `extinction.pvd` is always right.
+// written unless every format does without it (exporter.h). ParaView takes origin, spacing and size of
+// `extinction.vti.series` from its first file, and misplaces the others if theirs differ; `extinction.pvd` is always
+// right.
 //
 // Owns: a lock on the folder, so that two programs never write to the same one. Threads: one at a time; grids use the
 // current oneTBB arena.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "bench/export/collected_volume.h"
-#include "bench/export/extinction_grid.h"
-#include "bench/export/series.h"
-#include "bench/export/volume_settings.h"
-#include "methods/contract/scene.h"
-#include "methods/contract/volume.h"
+#include "bench/export/exporter.h"
 
 namespace dustbench::bench {
 
 /// Why this cloud cannot be written in the format (`provides no octree`); empty if it can.
-[[nodiscard]] std::string whyNotWritable(const CollectedVolume& volume, VolumeFormat format);
+[[nodiscard]] std::string whyNotWritable(const CollectedVolume& volume, std::string_view format);
 /// Throws InputError with the method, the reason and the possible formats if one of the formats cannot be written.
-void requireWritable(const CollectedVolume& volume, const std::vector<VolumeFormat>& formats, std::string_view method);
-
-/// The state of a run at one exported frame.
-struct ExportedMoment {
-    std::int64_t frame;
-    std::string_view method;  ///< its id
-    const CollectedVolume& volume;
-    const scene::Scene& scene;
-    const scene::SceneState& state;
-    Puffs dust;
-};
+void requireWritable(const CollectedVolume& volume, const std::vector<std::string>& formats, std::string_view method);
 
 class VolumeExporter {
  public:
@@ -50,29 +35,23 @@ class VolumeExporter {
     VolumeExporter(const VolumeExporter&) = delete;
     VolumeExporter& operator=(const VolumeExporter&) = delete;
 
-    [[nodiscard]] const VolumeSettings& settings() const { return settings_; }
+    [[nodiscard]] const VolumeSettings& settings() const { return folder_.settings(); }
     /// Stops writing this format.
-    void leaveOut(VolumeFormat format);
+    void leaveOut(std::string_view format);
     /// Throws InputError if a format cannot represent this cloud, the grid does not fit into memory, or a file cannot
     /// be written.
     void write(const ExportedMoment& moment);
     /// The grids have different placements: readers of `extinction.vti.series` must look into each file.
     [[nodiscard]] bool gridsDiffer() const { return gridsDiffer_; }
     /// The series written so far: those of the formats first, that of the scene last.
-    [[nodiscard]] std::vector<std::filesystem::path> seriesFiles() const;
+    [[nodiscard]] std::vector<std::filesystem::path> seriesFiles() const { return folder_.series(); }
 
  private:
     void writeGrids(const ExportedMoment& moment);
-    void writeOwnGrid(const ExportedMoment& moment);
-    void writeSurfaces(const ExportedMoment& moment);
-    [[nodiscard]] std::string nameOf(std::int64_t frame, std::string_view extension) const;
-    void addTo(const std::string& series, Series::Kind kind, const std::string& name, double timeSeconds);
 
-    VolumeSettings settings_;
-    std::filesystem::path folder_;
+    ExportFolder folder_;
     bool madeFolder_ = false;
     int lock_ = -1;
-    std::vector<Series> series_;
     std::optional<GridPlan> firstGrid_;
     bool gridsDiffer_ = false;
 };

@@ -1,11 +1,13 @@
 #include "bench/export/volume_settings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
+#include "bench/export/exporter.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
@@ -28,24 +30,22 @@ std::vector<std::string_view> parts(std::string_view text) {
 
 }  // namespace
 
-std::vector<VolumeFormat> parseFormats(std::string_view text) {
-    std::vector<VolumeFormat> formats;
-    for (const std::string_view name : parts(text)) {
-        const auto format = volumeFormats.find(name);
-        if (!format)
-            throw InputError(
-                fmt::format("format: got '{}', allowed: vti, htg, vtp, vdb, or several separated by ','", name));
-        formats.push_back(*format);
+std::vector<std::string> parseFormats(std::string_view text) {
+    const std::vector<std::string_view> given = parts(text);
+    std::vector<std::string> ids, formats;
+    for (const Exporter& exporter : exporters()) {
+        ids.push_back(exporter.id);
+        if (std::ranges::find(given, exporter.id) != given.end()) formats.push_back(exporter.id);
     }
-    std::ranges::sort(formats);
-    formats.erase(std::ranges::unique(formats).begin(), formats.end());
+    for (const std::string_view name : given)
+        if (std::ranges::find(ids, name) == ids.end())
+            throw InputError(
+                fmt::format("format: got '{}', allowed: {}, or several separated by ','", name, fmt::join(ids, ", ")));
     return formats;
 }
 
-std::string formatsText(const std::vector<VolumeFormat>& formats) {
-    std::string text;
-    for (const VolumeFormat format : formats) text.append(text.empty() ? "" : ",").append(volumeFormats.wordOf(format));
-    return text;
+std::string formatsText(const std::vector<std::string>& formats) {
+    return fmt::format("{}", fmt::join(formats, ","));
 }
 
 Box parseRegion(std::string_view text) {
@@ -85,8 +85,28 @@ int parseResolution(std::string_view text) {
     return cells;
 }
 
-bool VolumeSettings::wants(VolumeFormat format) const {
-    return std::ranges::find(formats, format) != formats.end();
+void VolumeSettings::setOption(const std::string& id, const std::string& word) {
+    const ExporterOption& declared = exporterOption(id);
+    if (std::ranges::find(declared.words, word) == declared.words.end()) {
+        std::string name = id;
+        std::ranges::replace(name, '_', ' ');
+        throw InputError(fmt::format("{}: got '{}', allowed: {}", name, word, fmt::join(declared.words, "|")));
+    }
+    options.erase(id);
+    if (word != declared.words.front()) options[id] = word;
+}
+
+const std::string& VolumeSettings::option(const std::string& id) const {
+    const auto found = options.find(id);
+    return found == options.end() ? exporterOption(id).words.front() : found->second;
+}
+
+std::vector<std::pair<std::string, std::string>> VolumeSettings::namedOptions() const {
+    std::vector<std::pair<std::string, std::string>> named;
+    for (const ExporterOption& declared : exporterOptions())
+        if (declared.isAlwaysNamed || options.contains(declared.id))
+            named.emplace_back(declared.id, option(declared.id));
+    return named;
 }
 
 }  // namespace dustbench::bench

@@ -5,26 +5,20 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bench/export/frame_range.h"
-#include "methods/contract/choices.h"
 
 namespace dustbench::bench {
 
-/// vti: extinction on a grid; htg: the octree itself; vtp: the particles; vdb: the grid for OpenVDB.
-enum class VolumeFormat { vti, htg, vtp, vdb };
-inline constexpr Choices<VolumeFormat> volumeFormats{
-    {"vti", VolumeFormat::vti}, {"htg", VolumeFormat::htg}, {"vtp", VolumeFormat::vtp}, {"vdb", VolumeFormat::vdb}};
-/// `vti,htg`: each once, in the order of the enumeration. Throws InputError.
-[[nodiscard]] std::vector<VolumeFormat> parseFormats(std::string_view text);
-[[nodiscard]] std::string formatsText(const std::vector<VolumeFormat>& formats);
-
-enum class VdbPrecision { half, single };
-inline constexpr Choices<VdbPrecision> vdbPrecisions{{"half", VdbPrecision::half}, {"float", VdbPrecision::single}};
+/// `vti,htg`: ids of exporters (exporter.h), each once, in their order. Throws InputError.
+[[nodiscard]] std::vector<std::string> parseFormats(std::string_view text);
+[[nodiscard]] std::string formatsText(const std::vector<std::string>& formats);
 
 struct Box {
     glm::dvec3 minimum{0};
@@ -46,12 +40,16 @@ inline constexpr int maximumCellsPerEdge = 2048;
 
 struct VolumeSettings {
     FrameRange frames;
-    std::vector<VolumeFormat> formats{VolumeFormat::vti};
-    int resolution = 128;       ///< cells along the longest edge of a grid, 1..maximumCellsPerEdge
-    std::optional<Box> region;  ///< of grids; empty: the cloud's bounding box in each frame
-    VdbPrecision vdbPrecision = VdbPrecision::half;
+    std::vector<std::string> formats{"vti"};
+    int resolution = 128;                          ///< cells along the longest edge of a grid, 1..maximumCellsPerEdge
+    std::optional<Box> region;                     ///< of grids; empty: the cloud's bounding box in each frame
+    std::map<std::string, std::string> options{};  ///< of formats, other than their defaults
 
-    [[nodiscard]] bool wants(VolumeFormat format) const;
+    /// Throws InputError that names the option and its words.
+    void setOption(const std::string& id, const std::string& word);
+    [[nodiscard]] const std::string& option(const std::string& id) const;
+    /// The options that keys and records of runs name, with their words.
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>> namedOptions() const;
 };
 
 }  // namespace dustbench::bench

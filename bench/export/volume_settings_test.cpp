@@ -1,4 +1,4 @@
-#include "bench/export/volume_settings.h"
+#include "bench/export/exporter.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,10 +17,20 @@ TEST(VolumeSettings, FormatsAreASet) {
         EXPECT_THAT(inputError([&] { (void)parseFormats(text); }), HasSubstr("allowed: vti, htg, vtp, vdb")) << text;
 }
 
-TEST(VolumeSettings, PrecisionIsOneOfTwo) {
-    for (const VdbPrecision precision : {VdbPrecision::half, VdbPrecision::single})
-        EXPECT_EQ(vdbPrecisions.parse("vdb precision", vdbPrecisions.wordOf(precision)), precision);
-    EXPECT_THAT(inputError([] { (void)vdbPrecisions.parse("vdb precision", "double"); }), HasSubstr("half|float"));
+TEST(VolumeSettings, AnOptionOfAFormatIsOneOfItsWordsAndNamedAtItsDefaultOnlyIfItAlwaysWas) {
+    VolumeSettings settings;
+    for (const ExporterOption& option : exporterOptions()) {
+        EXPECT_EQ(settings.option(option.id), option.words.front());
+        for (const std::string& word : option.words) {
+            settings.setOption(option.id, word);
+            EXPECT_EQ(settings.option(option.id), word);
+        }
+        EXPECT_THAT(inputError([&] { settings.setOption(option.id, "double"); }),
+                    HasSubstr(option.words[0] + "|" + option.words[1]));
+        settings.setOption(option.id, option.words.front());
+    }
+    EXPECT_EQ(settings.options.size(), 0u);
+    EXPECT_THAT(settings.namedOptions(), testing::ElementsAre(testing::Pair("vdb_precision", "half")));
 }
 
 TEST(VolumeSettings, ARegionSurvivesItsText) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "bench/export/exporter.h"
 #include "bench/results/measured_on.h"
 #include "bench/scene/world.h"
 #include "methods/contract/errors.h"
@@ -43,9 +44,12 @@ const MethodInfo* findBaseline() {
 }
 
 std::optional<KeyFields> pairKey(const StoredRun& run) try {
-    static const std::set<std::string> leftOut{"method",           "images",         "volumes",       "formats",
-                                               "resolution",       "region",         "vdb_precision", "metrics",
-                                               "metric_reference", "metric_pictures"};
+    static const std::set<std::string> leftOut = [] {
+        std::set<std::string> names{"method", "images",  "volumes",          "formats",        "resolution",
+                                    "region", "metrics", "metric_reference", "metric_pictures"};
+        for (const ExporterOption& option : exporterOptions()) names.insert(option.id);
+        return names;
+    }();
     KeyFields fields = keyFields(run);
     std::erase_if(fields, [](const auto& field) {
         const auto& [name, value] = field;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/export/exporter.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
@@ -118,11 +119,12 @@ Json outputsArray(const std::optional<std::vector<OutputFile>>& outputs) {
 
 Json volumesObject(const std::optional<VolumeSettings>& volumes) {
     if (!volumes) return nullptr;
-    return {{"frames", volumes->frames.text()},
-            {"formats", formatsText(volumes->formats)},
-            {"resolution", volumes->resolution},
-            {"region", volumes->region ? Json(regionText(*volumes->region)) : Json(nullptr)},
-            {"vdb_precision", vdbPrecisions.wordOf(volumes->vdbPrecision)}};
+    Json object = {{"frames", volumes->frames.text()},
+                   {"formats", formatsText(volumes->formats)},
+                   {"resolution", volumes->resolution},
+                   {"region", volumes->region ? Json(regionText(*volumes->region)) : Json(nullptr)}};
+    for (const auto& [id, word] : volumes->namedOptions()) object[id] = word;
+    return object;
 }
 
 std::optional<VolumeSettings> readVolumes(const Json& json) {
@@ -132,7 +134,8 @@ std::optional<VolumeSettings> readVolumes(const Json& json) {
     volumes.formats = parseFormats(json.at("formats").get<std::string>());
     volumes.resolution = json.at("resolution").get<int>();
     if (!json.at("region").is_null()) volumes.region = parseRegion(json.at("region").get<std::string>());
-    volumes.vdbPrecision = vdbPrecisions.parse("vdb precision", json.at("vdb_precision").get<std::string>());
+    for (const ExporterOption& option : exporterOptions())
+        if (json.contains(option.id)) volumes.setOption(option.id, json.at(option.id).get<std::string>());
     return volumes;
 }
 

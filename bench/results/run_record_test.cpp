@@ -35,8 +35,8 @@ TEST(RunRecord, SpecificationSurvivesItsFile) {
     EXPECT_EQ(canonicalKey(specFromJson(specToJson(spec()))), canonicalKey(spec()));
     EXPECT_EQ(runId(specFromJson(specToJson(spec()))), runId(spec()));
     RunSpec withVolumes = spec();
-    withVolumes.volumes = VolumeSettings{
-        {2, 10, 4}, {VolumeFormat::htg, VolumeFormat::vdb}, 77, Box{{-1.5, 0.1, 2}, {3, 4, 5}}, VdbPrecision::single};
+    withVolumes.volumes =
+        VolumeSettings{{2, 10, 4}, {"htg", "vdb"}, 77, Box{{-1.5, 0.1, 2}, {3, 4, 5}}, {{"vdb_precision", "float"}}};
     EXPECT_EQ(canonicalKey(specFromJson(specToJson(withVolumes))), canonicalKey(withVolumes));
     EXPECT_NE(canonicalKey(withVolumes), canonicalKey(spec()));
     RunSpec withPath = spec();

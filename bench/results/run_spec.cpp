@@ -123,10 +123,10 @@ std::string canonicalKey(const RunSpec& spec) {
     if (!spec.timed) key += "times=0\n";
     if (spec.volumes) {
         const VolumeSettings& volumes = *spec.volumes;
-        key +=
-            fmt::format("volumes={}\nformats={}\nresolution={}\nregion={}\nvdb_precision={}\n", volumes.frames.text(),
-                        formatsText(volumes.formats), volumes.resolution,
-                        volumes.region ? regionText(*volumes.region) : "", vdbPrecisions.wordOf(volumes.vdbPrecision));
+        key += fmt::format("volumes={}\nformats={}\nresolution={}\nregion={}\n", volumes.frames.text(),
+                           formatsText(volumes.formats), volumes.resolution,
+                           volumes.region ? regionText(*volumes.region) : "");
+        for (const auto& [id, word] : volumes.namedOptions()) key += fmt::format("{}={}\n", id, word);
     }
     if (spec.judging)
         key += fmt::format("metrics={}\nmetric_reference={}\n",

@@ -49,10 +49,10 @@ TEST(RunSpec, EveryFieldTellsRunsApart) {
     specs[12].repetition = 2;
     for (std::size_t i = 13; i < 19; ++i) specs[i].volumes.emplace();
     specs[14].volumes->frames = {0, 8, 4};
-    specs[15].volumes->formats = {VolumeFormat::vti, VolumeFormat::vtp};
+    specs[15].volumes->formats = {"vti", "vtp"};
     specs[16].volumes->resolution = 64;
     specs[17].volumes->region = Box{{0, 0, 0}, {1, 2, 3}};
-    specs[18].volumes->vdbPrecision = VdbPrecision::single;
+    specs[18].volumes->setOption("vdb_precision", "float");
     specs[19].dustOn = DustOn::cpu;
     specs[20].dustOn = DustOn::gpu;
     std::set<std::string> ids;

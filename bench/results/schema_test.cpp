@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/export/exporter.h"
 #include "bench/measure/image/metric.h"
 #include "bench/reference/judge/judgement.h"
 #include "bench/results/frame_files.h"
@@ -158,6 +159,13 @@ TEST(MetricDocuments, HaveARowForEachMetricAsItIsDeclared) {
     expectRows("METRICS.md", "| Id | Definition | Range | Perfect | Unit | Reference | Empty when | Source |",
                definitions);
     expectRows("SCHEMA.md", "| column | unit | definition | of a run |", columns);
+}
+
+TEST(ExporterDocuments, HaveARowForEachFormatAsItIsDeclared) {
+    std::string rows;
+    for (const Exporter& exporter : exporters())
+        rows += rowOf({fmt::format("`{}`", exporter.id), exporter.contents, exporter.programs});
+    expectRows("guide/paraview-blender.md", "| Format | Contents | For |", rows);
 }
 
 /// Rows without a fact belong to methods that this build excludes.

@@ -70,11 +70,11 @@ class RunVolumes {
  private:
     /// A suite requests the same formats from all methods, so an unsupported one is an error only if none remain.
     void leaveOutImpossible(const CollectedVolume& volume) {
-        const std::vector<VolumeFormat> asked = exporter_->settings().formats;
+        const std::vector<std::string> asked = exporter_->settings().formats;
         std::vector<std::string> reasons;
-        for (const VolumeFormat format : asked)
+        for (const std::string& format : asked)
             if (const std::string reason = whyNotWritable(volume, format); !reason.empty()) {
-                reasons.push_back(fmt::format("no .{} was written: method {} {}", volumeFormats.wordOf(format),
+                reasons.push_back(fmt::format("no .{} was written: method {} {}", exporterOf(format).extension,
                                               spec_.method, reason));
                 exporter_->leaveOut(format);
             }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "bench/export/exporter.h"
 #include "bench/suite/value_list.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
@@ -141,9 +142,8 @@ void readVolumes(files::TomlReader& table, std::optional<VolumeSettings>& volume
         volumes->resolution = static_cast<int>(table.integer(key, 1, maximumCellsPerEdge, volumes->resolution));
     });
     read("region", [&](const std::string& key) { volumes->region = parseRegion(table.text(key, "")); });
-    read("vdb_precision", [&](const std::string& key) {
-        volumes->vdbPrecision = vdbPrecisions.parse("vdb precision", table.text(key, ""));
-    });
+    for (const ExporterOption& option : exporterOptions())
+        read(option.id, [&](const std::string& key) { volumes->setOption(key, table.text(key, "")); });
 }
 
 /// `metrics` requests metrics; `metric_frames` and `metric_pictures` refine it.

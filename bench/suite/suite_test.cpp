@@ -325,7 +325,7 @@ volumes = "0:4:2"
     EXPECT_EQ(formatsText(volumes.formats), "vti,vtp");
     EXPECT_EQ(volumes.resolution, 64);
     EXPECT_EQ(regionText(volumes.region.value()), "0,0,0,1,2,3");
-    EXPECT_EQ(volumes.vdbPrecision, VdbPrecision::single);
+    EXPECT_EQ(volumes.option("vdb_precision"), "float");
     const Suite quick = parseSuite(text, "s.toml", true);
     EXPECT_EQ(quick.cells.at(0).spec.volumes.value().frames.last, 2);
     EXPECT_EQ(quick.cells.at(0).spec.volumes.value().resolution, 64);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 
+#include "bench/export/exporter.h"
 #include "bench/results/shell_words.h"
 #include "bench/scene/camera_path.h"
 #include "bench/suite/value_list.h"
@@ -78,9 +79,11 @@ class LineReader {
             {"--warmup", [this](const std::string& value) { state_.warmup = integer("--warmup", value, 0); }},
             {"--frames", [this](const std::string& value) { frames_ = integer("--frames", value, 1); }},
         };
-        for (const char* other : {"--out", "--sync", "--images", "--video", "--gif", "--volumes", "--format",
-                                  "--resolution", "--region", "--vdb-precision"})
+        for (const char* other :
+             {"--out", "--sync", "--images", "--video", "--gif", "--volumes", "--format", "--resolution", "--region"})
             options_[other] = [](const std::string&) {};
+        for (const ExporterOption& option : exporterOptions())
+            options_[option.commandName()] = [](const std::string&) {};
     }
 
     ViewState read(std::vector<std::string> words) {

@@ -13,11 +13,11 @@ namespace dustbench::bench {
 namespace {
 
 /// Every format that can store the volume; all of them if none can.
-std::vector<VolumeFormat> formatsOf(const CollectedVolume& volume) {
-    std::vector<VolumeFormat> all, possible;
-    for (const auto& [word, format] : volumeFormats.all()) {
-        all.push_back(format);
-        if (whyNotWritable(volume, format).empty()) possible.push_back(format);
+std::vector<std::string> formatsOf(const CollectedVolume& volume) {
+    std::vector<std::string> all, possible;
+    for (const Exporter& exporter : exporters()) {
+        all.push_back(exporter.id);
+        if (whyNotWritable(volume, exporter.id).empty()) possible.push_back(exporter.id);
     }
     return possible.empty() ? all : possible;
 }

@@ -1,5 +1,6 @@
 #include "bench/export/vti_writer.h"
 
+#include <fmt/format.h>
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
@@ -7,6 +8,7 @@
 #include <vtkNew.h>
 #include <vtkXMLImageDataWriter.h>
 
+#include "bench/export/exporter.h"
 #include "bench/export/vtk_file.h"
 #include "bench/export/whole_file.h"
 
@@ -60,5 +62,33 @@ void writeGridVti(const CollectedGrid& grid, double timeSeconds, const std::file
     stampTime(*image, timeSeconds);
     writeImage(*image, file);
 }
+
+namespace vti_format {
+
+Exporter describe() {
+    Exporter exporter{.id = "vti",
+                      .extension = "vti",
+                      .kind = "grid",
+                      .contents = "grid of extinction, in 1/m",
+                      .programs = "ParaView, VTK",
+                      .readersNeedEqualGrids = true,
+                      .place = 1};
+    exporter.writeGrid = [](const ExtinctionGrid& grid, const ExportedMoment& moment, ExportFolder& folder) {
+        const std::string name = fileOf(moment, "vti");
+        writeVti(grid, moment.state.timeSeconds, folder.file(name));
+        folder.addTo("extinction.pvd", Series::Kind::pvd, name, moment);
+        folder.addTo("extinction.vti.series", Series::Kind::json, name, moment);
+    };
+    // A method's own grid with all its fields, in addition to the extinction that every cloud has.
+    exporter.write = [](const ExportedMoment& moment, ExportFolder& folder) {
+        if (moment.volume.grids().empty()) return;
+        const std::string name = ownFileOf(moment, "vti");
+        writeGridVti(moment.volume.grids().front(), moment.state.timeSeconds, folder.file(name));
+        folder.addTo(fmt::format("{}_grid.pvd", moment.method), Series::Kind::pvd, name, moment);
+    };
+    return exporter;
+}
+
+}  // namespace vti_format
 
 }  // namespace dustbench::bench

@@ -1,5 +1,6 @@
 #include "bench/export/vtp_writer.h"
 
+#include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
@@ -9,6 +10,11 @@
 #include <vtkTypeUInt64Array.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <cctype>
+#include <set>
+
+#include "bench/export/exporter.h"
+#include "bench/export/surface_writer.h"
 #include "bench/export/vtk_file.h"
 #include "bench/export/whole_file.h"
 #include "methods/contract/volume.h"
@@ -26,6 +32,28 @@ vtkNew<vtkFloatArray> interleaved(std::span<const float> x, std::span<const floa
         *value++ = z[i];
     }
     return tuples;
+}
+
+/// A name in a form that is valid within a file name.
+std::string fileWord(std::string name) {
+    for (char& letter : name)
+        if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
+    return name;
+}
+
+/// Writes each surface that the method changes, in addition to its own particles.
+void writeSurfaces(const ExportedMoment& moment, ExportFolder& folder) {
+    std::set<std::string> parts;
+    for (const CollectedSurface& surface : moment.volume.surfaces()) {
+        std::string part = fmt::format("{}_{}", moment.method, fileWord(surface.name));
+        while (!parts.insert(part).second) part += '_';  // names that differ only in replaced characters
+        const std::string mesh = fmt::format("f{:06}_{}.vtp", moment.frame, part);
+        writeSurface(surface, moment.state.timeSeconds, folder.file(mesh));
+        folder.addTo(part + ".pvd", Series::Kind::pvd, mesh, moment);
+        const std::string heights = fmt::format("f{:06}_{}_heights.exr", moment.frame, part);
+        writeHeights(surface, folder.file(heights));
+        folder.addTo(part + "_heights.exr.series", Series::Kind::json, heights, moment);
+    }
 }
 
 }  // namespace
@@ -70,5 +98,32 @@ void writeVtp(const Puffs& dust, double timeSeconds, const std::filesystem::path
     writeVtk(*writer, *cloud, whole.beside());
     whole.publish();
 }
+
+namespace vtp_format {
+
+Exporter describe() {
+    Exporter exporter{
+        .id = "vtp",
+        .extension = "vtp",
+        .kind = "particles",
+        .contents = "the dust particles; with `relief` also the worn surfaces, and their heights as `.exr`",
+        .programs = "ParaView, Blender (script below)",
+        .place = 3};
+    exporter.write = [](const ExportedMoment& moment, ExportFolder& folder) {
+        const double time = moment.state.timeSeconds;
+        const std::string name = fileOf(moment, "vtp");
+        writeVtp(moment.dust, time, folder.file(name));
+        folder.addTo("particles.pvd", Series::Kind::pvd, name, moment);
+        if (const auto& own = moment.volume.particles(); own && own->serial.data() != moment.dust.serial.data()) {
+            const std::string ownName = ownFileOf(moment, "vtp");
+            writeVtp(*own, time, folder.file(ownName));
+            folder.addTo(fmt::format("{}.pvd", moment.method), Series::Kind::pvd, ownName, moment);
+        }
+        writeSurfaces(moment, folder);
+    };
+    return exporter;
+}
+
+}  // namespace vtp_format
 
 }  // namespace dustbench::bench

@@ -14,6 +14,7 @@
 #include <tbb/global_control.h>
 #endif
 
+#include "bench/export/exporter.h"
 #include "bench/export/whole_file.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/machine_error.h"
@@ -127,5 +128,38 @@ void writeGridVdb(const CollectedGrid& grid, std::int64_t frame, double timeSeco
     }
     writeWholeVdb(grids, file);
 }
+
+namespace vdb_format {
+
+Exporter describe() {
+    Exporter exporter{.id = "vdb",
+                      .extension = "vdb",
+                      .kind = "OpenVDB",
+                      .contents = "the same grid as an OpenVDB fog volume",
+                      .programs = "Blender, Houdini",
+                      .options = {{.id = "vdb_precision",
+                                   .words = {"half", "float"},
+                                   .help = "precision of .vdb; default: half",
+                                   .isAlwaysNamed = true}},
+                      .gridTenths = 11,  // in blocks: in the worst case all cells, plus a tenth for the tree
+                      .withScene = false,
+                      .place = 4};
+    exporter.writeGrid = [](const ExtinctionGrid& grid, const ExportedMoment& moment, ExportFolder& folder) {
+        const std::string name = fileOf(moment, "vdb");
+        const VdbPrecision precision =
+            folder.settings().option("vdb_precision") == "half" ? VdbPrecision::half : VdbPrecision::single;
+        writeVdb(grid, precision, moment.frame, moment.state.timeSeconds, folder.file(name));
+        folder.addTo("density.vdb.series", Series::Kind::json, name, moment);
+    };
+    exporter.write = [](const ExportedMoment& moment, ExportFolder& folder) {
+        if (moment.volume.grids().empty()) return;
+        const std::string name = ownFileOf(moment, "vdb");
+        writeGridVdb(moment.volume.grids().front(), moment.frame, moment.state.timeSeconds, folder.file(name));
+        folder.addTo(fmt::format("{}_grid.vdb.series", moment.method), Series::Kind::json, name, moment);
+    };
+    return exporter;
+}
+
+}  // namespace vdb_format
 
 }  // namespace dustbench::bench

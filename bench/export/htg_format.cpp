@@ -14,6 +14,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "bench/export/exporter.h"
 #include "bench/export/vtk_file.h"
 #include "bench/export/whole_file.h"
 
@@ -133,5 +134,28 @@ void writeHtg(const CollectedOctree& octree, double timeSeconds, const std::file
     writeVtk(*writer, *grid, whole.beside(), Numbers::within);
     whole.publish();
 }
+
+namespace htg_format {
+
+Exporter describe() {
+    Exporter exporter{.id = "htg",
+                      .extension = "htg",
+                      .kind = "octree",
+                      .contents = "the octree itself, for the octree methods",
+                      .programs = "ParaView",
+                      .place = 2};
+    exporter.whyNot = [](const CollectedVolume& volume) -> std::string {
+        if (volume.isOneOctree()) return {};
+        return volume.octrees().empty() ? "provides no octree" : "provides more than one octree";
+    };
+    exporter.write = [](const ExportedMoment& moment, ExportFolder& folder) {
+        const std::string name = fileOf(moment, "htg");
+        writeHtg(moment.volume.octrees().front(), moment.state.timeSeconds, folder.file(name));
+        folder.addTo("octree.pvd", Series::Kind::pvd, name, moment);
+    };
+    return exporter;
+}
+
+}  // namespace htg_format
 
 }  // namespace dustbench::bench
