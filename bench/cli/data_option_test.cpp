@@ -101,7 +101,7 @@ TEST_F(Data, LieBesideTheProgramWhereverBothAreMoved) {
         fs::copy(source / "data", folder_ / data, fs::copy_options::recursive);
     }
     fs::create_directories(folder_ / "tree/reports");
-    fs::copy(source / "reports" / "report", folder_ / "tree/reports/report", fs::copy_options::recursive);
+    fs::copy(source / "reports" / "page", folder_ / "tree/reports/page", fs::copy_options::recursive);
     for (const char* document : {"SCHEMA.md", "METRICS.md"})
         fs::copy_file(source / "reports" / document, folder_ / "tree/reports" / document);
     fs::rename(folder_ / "tree", folder_ / "moved");

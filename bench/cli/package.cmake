@@ -5,7 +5,7 @@ install(TARGETS dustbench RUNTIME DESTINATION bin)
 install(TARGETS dustbench_kit dustbench_openimageio dustbench_vdb_reader
   RUNTIME DESTINATION lib/dustbench/kit LIBRARY DESTINATION lib/dustbench/kit)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/data/ DESTINATION share/dustbench)
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/reports/report DESTINATION share/dustbench/reports)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/reports/page DESTINATION share/dustbench/reports)
 install(FILES ${CMAKE_SOURCE_DIR}/reports/METRICS.md ${CMAKE_SOURCE_DIR}/reports/SCHEMA.md
   DESTINATION share/dustbench/reports)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/methods/contract ${CMAKE_SOURCE_DIR}/methods/kit

@@ -65,7 +65,7 @@ std::string fileText(const fs::path& file) {
 }
 
 std::string reportFile(std::string_view name) {
-    return fileText(reportsFolder() / "report" / name);
+    return fileText(reportsFolder() / "page" / name);
 }
 
 std::string reportColumns() {

@@ -8,10 +8,10 @@
 
 namespace dustbench::bench {
 
-/// The content of `reports/report/<name>`. Throws InputError.
+/// The content of `reports/page/<name>`. Throws InputError.
 [[nodiscard]] std::string reportFile(std::string_view name);
 
-/// The name, unit and direction of each quantity that charts show, as JSON: `reports/report/columns.json` and the image
+/// The name, unit and direction of each quantity that charts show, as JSON: `reports/page/columns.json` and the image
 /// metrics. Throws InputError.
 [[nodiscard]] std::string reportColumns();
 
@@ -24,7 +24,7 @@ namespace dustbench::bench {
 /// The licence under which Vega may be redistributed with a page, from the package.
 [[nodiscard]] std::string vegaLicence();
 
-/// `{"cost": {…}, …}`: every specification of these folders of `reports/report`, by its name without extension.
+/// `{"cost": {…}, …}`: every specification of these folders of `reports/page`, by its name without extension.
 [[nodiscard]] std::string chartSpecifications(const std::vector<std::string>& folders = {"charts"});
 
 /// Converts the data to chart specifications; for browsers and for node.

@@ -8,7 +8,7 @@
 namespace dustbench::bench {
 
 /// Safe inside a script element: contains no `<`. Invalid UTF-8 is replaced. The fields are documented at the top of
-/// reports/report/page.js.
+/// reports/page/page.js.
 [[nodiscard]] std::string reportJson(const ReportData& data);
 
 }  // namespace dustbench::bench

@@ -39,7 +39,7 @@ def listed(below):
     """(source's name, message) of every message of the program and of its page."""
     for path in words_test.files(below):
         name = str(path.relative_to(ROOT))
-        if path.suffix == ".js" and name.startswith("reports/report/"):
+        if path.suffix == ".js" and name.startswith("reports/page/"):
             yield from ((name, messages.Message(line, "page", text)) for line, text, _ in words_test.texts(path))
         if path.suffix not in SOURCES or not name.startswith(("methods/", "bench/")) or words_test.is_test(name):
             continue

@@ -202,20 +202,20 @@ class ReportOfSeveralMachines(MachinesCase):
 
         scripts = ("chart_style chart_data chart_parts published_marks cost_chart stage_chart quality_chart charts words".split(),
                    "elements markdown pictures claims overview page_state page_look chart_card head page".split())
-        charts = ",".join(f'"{name}":' + text("report", "charts", f"{name}.json") for name in ("bars", "cost", "frames", "quality", "stages"))
+        charts = ",".join(f'"{name}":' + text("page", "charts", f"{name}.json") for name in ("bars", "cost", "frames", "quality", "stages"))
         data = between('id="report-data">', "</script>")
         columns = between('id="report-columns">', "</script>")
         named = json.loads(columns)
         self.assertEqual(named["psnr_db"], {"name": "PSNR", "unit": "dB", "better": "high", "metric": True, "flaw": False})
-        self.assertLessEqual(json.loads(text("report", "columns.json")).items(), named.items())
+        self.assertLessEqual(json.loads(text("page", "columns.json")).items(), named.items())
         self.assertEqual(set(json.loads(data)), {"claims", "experiments", "facts", "files", "folder", "frames", "framesLeftOut", "heat", "linkedPictures", "machines",
                                                  "methods", "notDone", "papers", "pictures", "problems", "root", "runs", "tablesOnly", "version", "warnings", "written"})
         # Vega and its licence come from Debian.
-        parts = {"title": "dustbench: lab", "style": text("report", "page.css"), "columns": columns, "charts": "{" + charts + "}",
+        parts = {"title": "dustbench: lab", "style": text("page", "page.css"), "columns": columns, "charts": "{" + charts + "}",
                  "data": data, "schema": escaped(text("SCHEMA.md")), "metrics": escaped(text("METRICS.md")),
-                 "chart-script": "".join(text("report", f"{name}.js") for name in scripts[0]), "page-script": "".join(text("report", f"{name}.js") for name in scripts[1]),
+                 "chart-script": "".join(text("page", f"{name}.js") for name in scripts[0]), "page-script": "".join(text("page", f"{name}.js") for name in scripts[1]),
                  "vega": between("</template>\n<script>\n", "\n</script>\n<script>\n"), "licence": between("ISC licence).\n\n", "</pre></template>")}
-        expected = text("report", "page.html")
+        expected = text("page", "page.html")
         for name, content in parts.items():
             expected = expected.replace("{{" + name + "}}", content)
         self.assertEqual(len(page), len(expected))

@@ -27,7 +27,7 @@ struct MachineComparison {
 
 [[nodiscard]] MachineComparison comparisonOf(MachineSet set);
 
-/// As JSON, safe inside a script element. The fields are documented at the top of reports/report/machines/page.js.
+/// As JSON, safe inside a script element. The fields are documented at the top of reports/page/machines/page.js.
 [[nodiscard]] std::string machinesJson(const MachineComparison& comparison);
 
 /// The whole page, self-contained.
