@@ -34,12 +34,12 @@ bool isOpposite(ClaimVerdict verdict, ControlOutcome outcome) {
 
 }  // namespace
 
-ClaimResult judgeWithControls(const Claim& claim, const RuleJudge& judge) {
-    ClaimResult result = judge(claim.rule);
+ClaimResult evaluateWithControls(const Claim& claim, const RuleEvaluator& evaluate) {
+    ClaimResult result = evaluate(claim.rule);
     if (result.verdict == ClaimVerdict::notTested) return result;
     bool missing = false, failed = false, turned = false;
     for (const ControlRule& control : claim.controls) {
-        const ClaimResult found = judge(control.rule);
+        const ClaimResult found = evaluate(control.rule);
         result.controls.push_back({found.verdict, found.measured});
         if (found.verdict == ClaimVerdict::notTested) {
             missing = true;

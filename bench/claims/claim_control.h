@@ -11,12 +11,12 @@
 namespace dustbench::bench {
 
 /// Evaluates a rule with the available data.
-using RuleJudge = std::function<ClaimResult(const Rule&)>;
+using RuleEvaluator = std::function<ClaimResult(const Rule&)>;
 
 /// The verdict that a control is known to have.
 [[nodiscard]] ClaimVerdict verdictOf(ControlOutcome outcome);
 
 /// Evaluates the claim and its controls.
-[[nodiscard]] ClaimResult judgeWithControls(const Claim& claim, const RuleJudge& judge);
+[[nodiscard]] ClaimResult evaluateWithControls(const Claim& claim, const RuleEvaluator& evaluate);
 
 }  // namespace dustbench::bench

@@ -51,18 +51,19 @@ int repetitionIn(const files::CsvTable& summary, std::size_t row) {
 
 }  // namespace
 
-std::string verdictText(const JudgedClaim& judged) {
-    const ClaimVerdict verdict = judged.result.verdict;
-    const bool isJudged = verdict != ClaimVerdict::untestable && verdict != ClaimVerdict::notTested;
-    std::string text = std::string(verdictName(verdict)) + (judged.claim.device && isJudged ? " on this device" : "");
-    const std::string& along = judged.claim.rule.along;
+std::string verdictText(const EvaluatedClaim& evaluated) {
+    const ClaimVerdict verdict = evaluated.result.verdict;
+    const bool isEvaluated = verdict != ClaimVerdict::untestable && verdict != ClaimVerdict::notTested;
+    std::string text =
+        std::string(verdictName(verdict)) + (evaluated.claim.device && isEvaluated ? " on this device" : "");
+    const std::string& along = evaluated.claim.rule.along;
     if (verdict != ClaimVerdict::depends || along.empty()) return text;
-    const std::string interval = intervalAlong(judged.result.cells, along);
+    const std::string interval = intervalAlong(evaluated.result.cells, along);
     return interval.empty() ? text : text + ": " + interval;
 }
 
-void tellByMachine(JudgedClaim& judged, const std::vector<ClaimVerdict>& ofMachines) {
-    if (!judged.claim.device || ofMachines.size() < 2) return;
+void tellByMachine(EvaluatedClaim& evaluated, const std::vector<ClaimVerdict>& ofMachines) {
+    if (!evaluated.claim.device || ofMachines.size() < 2) return;
     std::vector<std::string> texts;
     std::set<ClaimVerdict> verdicts;
     for (std::size_t i = 0; i < ofMachines.size(); ++i) {
@@ -70,9 +71,9 @@ void tellByMachine(JudgedClaim& judged, const std::vector<ClaimVerdict>& ofMachi
         if (ofMachines[i] != ClaimVerdict::notTested) verdicts.insert(ofMachines[i]);
     }
     if (verdicts.empty()) return;
-    judged.result.condition = fmt::format("{}", fmt::join(texts, ", "));
-    judged.result.verdict = verdicts.size() == 1 ? *verdicts.begin() : ClaimVerdict::depends;
-    judged.claim.device = verdicts.size() == 1;
+    evaluated.result.condition = fmt::format("{}", fmt::join(texts, ", "));
+    evaluated.result.verdict = verdicts.size() == 1 ? *verdicts.begin() : ClaimVerdict::depends;
+    evaluated.claim.device = verdicts.size() == 1;
 }
 
 std::set<std::string> runIdsOf(const std::string& suiteId, const files::CsvTable& summary) {
@@ -87,54 +88,54 @@ std::set<std::string> runIdsOf(const std::string& suiteId, const files::CsvTable
     return ids;
 }
 
-std::vector<JudgedClaim> judgeClaims(const std::string& paper, const files::CsvTable& summary,
-                                     const std::vector<StoredFinding>& findings) {
+std::vector<EvaluatedClaim> evaluateClaims(const std::string& paper, const files::CsvTable& summary,
+                                           const std::vector<StoredFinding>& findings) {
     std::map<std::string, std::set<std::string>> runIds;
-    const RuleJudge judge = [&](const Rule& rule) {
-        if (rule.quantity == Quantity::finding) return judgeFinding(rule, findings);
+    const RuleEvaluator evaluate = [&](const Rule& rule) {
+        if (rule.quantity == Quantity::finding) return evaluateFinding(rule, findings);
         if (!runIds.contains(rule.suite)) runIds[rule.suite] = runIdsOf(rule.suite, summary);
-        return judgeRule(rule, ResultRows(summary, &runIds[rule.suite]));
+        return evaluateRule(rule, ResultRows(summary, &runIds[rule.suite]));
     };
-    std::vector<JudgedClaim> judged;
+    std::vector<EvaluatedClaim> evaluated;
     for (Claim& claim : loadClaims(paper)) {
         ClaimResult result;
         result.note = claim.missing;
-        if (claim.rule.quantity != Quantity::none) result = judgeWithControls(claim, judge);
-        judged.push_back({paper, std::move(claim), std::move(result)});
+        if (claim.rule.quantity != Quantity::none) result = evaluateWithControls(claim, evaluate);
+        evaluated.push_back({paper, std::move(claim), std::move(result)});
     }
-    return judged;
+    return evaluated;
 }
 
-std::string claimsCsv(const std::vector<JudgedClaim>& claims) {
+std::string claimsCsv(const std::vector<EvaluatedClaim>& claims) {
     std::string text =
         "id,paper,claim,verdict,control,measured,expected,interval,condition,cells,quantity,reason,controls,runs,"
         "note,verdict_text\n";
-    for (const JudgedClaim& judged : claims) {
-        const auto& [paper, claim, result] = judged;
+    for (const EvaluatedClaim& evaluated : claims) {
+        const auto& [paper, claim, result] = evaluated;
         std::string row;
         for (const std::string& cell :
              {claim.id, paper, claim.text, std::string(verdictName(result.verdict)),
               std::string(controlName(result.control)), files::csvNumber(result.measured), claim.rule.expected(),
               interval(result.low, result.high), result.condition, cellsText(result.cells), claim.rule.inWords(),
               claim.reason, result.controlNote, fmt::format("{}", fmt::join(result.runs, " ")), result.note,
-              verdictText(judged)})
+              verdictText(evaluated)})
             row.append(row.empty() ? "" : ",").append(files::csvCell(cell));
         text.append(row).append(1, '\n');
     }
     return text;
 }
 
-TextRows tabulate(const std::vector<JudgedClaim>& claims) {
+TextRows tabulate(const std::vector<EvaluatedClaim>& claims) {
     TextRows table{{"claim", "verdict", "control", "measured", "interval", "expected", "the paper's claim"}, {}};
-    for (const JudgedClaim& judged : claims) {
-        const auto& [paper, claim, result] = judged;
+    for (const EvaluatedClaim& evaluated : claims) {
+        const auto& [paper, claim, result] = evaluated;
         std::string text = claim.text;
         for (const std::string& more : {result.condition, result.note})
             if (!more.empty()) text += " (" + more + ")";
         const Rule& rule = claim.rule;
         const std::string range =
             std::isfinite(result.low) ? fmt::format("[{}, {}]", rule.textOf(result.low), rule.textOf(result.high)) : "";
-        table.rows.push_back({claim.id, verdictText(judged), std::string(controlName(result.control)),
+        table.rows.push_back({claim.id, verdictText(evaluated), std::string(controlName(result.control)),
                               rule.textOf(result.measured), range, rule.expected(), text});
     }
     return table;

@@ -48,9 +48,9 @@ Claim ruledClaim(const std::string& rule) {
         .at(0);
 }
 
-ClaimResult judged(const std::string& rule, const ValueOf& value) {
+ClaimResult evaluated(const std::string& rule, const ValueOf& value) {
     const files::CsvTable rows = table(value);
-    return judgeRule(ruledClaim(rule).rule, ResultRows(rows, nullptr));
+    return evaluateRule(ruledClaim(rule).rule, ResultRows(rows, nullptr));
 }
 
 /// Haze takes `ratio` times as long as mist in every world.
@@ -65,7 +65,7 @@ const std::string faster =
     "quantity = \"ratio\"\ncolumn = \"frame_ms_median\"\nof = \"haze\"\nwith = \"mist\"\nmax = 1\n";
 
 TEST(ClaimRules, ARatioTurnsRoundWithTheTimes) {
-    const ClaimResult holds = judged(faster, ratioOf(0.9));
+    const ClaimResult holds = evaluated(faster, ratioOf(0.9));
     EXPECT_EQ(holds.verdict, ClaimVerdict::confirmed);
     EXPECT_NEAR(holds.measured, 0.9, 0.01);
     EXPECT_LT(holds.low, holds.measured);
@@ -73,11 +73,11 @@ TEST(ClaimRules, ARatioTurnsRoundWithTheTimes) {
     EXPECT_EQ(holds.runs.size(), 48u);
     // The same table with the method names swapped.
     const ValueOf value = ratioOf(0.9);
-    const ClaimResult reversed = judged(faster, [&](const std::string& method, int particles, int repetition) {
+    const ClaimResult reversed = evaluated(faster, [&](const std::string& method, int particles, int repetition) {
         return value(method == "haze" ? "mist" : "haze", particles, repetition);
     });
     EXPECT_EQ(reversed.verdict, ClaimVerdict::refuted);
-    EXPECT_EQ(judged(faster, ratioOf(1)).verdict, ClaimVerdict::unresolved);
+    EXPECT_EQ(evaluated(faster, ratioOf(1)).verdict, ClaimVerdict::unresolved);
 }
 
 TEST(ClaimRules, ARatioPairsTheSameWorldAndRepetitionAlone) {
@@ -85,7 +85,7 @@ TEST(ClaimRules, ARatioPairsTheSameWorldAndRepetitionAlone) {
     const auto drifting = [](const std::string& method, int particles, int repetition) {
         return (method == "haze" ? 0.97 : 1) * particles * (1 + repetition % 3);
     };
-    const ClaimResult result = judged(faster, drifting);
+    const ClaimResult result = evaluated(faster, drifting);
     EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
     EXPECT_NEAR(result.low, 0.97, 1e-9);
     EXPECT_NEAR(result.high, 0.97, 1e-9);
@@ -102,14 +102,14 @@ TEST(ClaimRules, ARatioOfTimesNearZeroIsThatOfTheMeans) {
     const std::string twice =
         "quantity = \"ratio\"\ncolumn = \"frame_ms_median\"\nof = \"haze\"\nwith = \"mist\"\nmin = 2\n";
     const std::vector<double> clear{-0.1, 1.9, 1.2, 1.5, 0.9, 1.6}, lost{-0.9, 1.1, 0.2, 0.5, -0.1, -0.6};
-    const ClaimResult holds = judged(twice, differences(clear, 3));
+    const ClaimResult holds = evaluated(twice, differences(clear, 3));
     EXPECT_EQ(holds.verdict, ClaimVerdict::confirmed);
     for (const ClaimCell& cell : holds.cells) {
         EXPECT_EQ(cell.turns, 6u) << "no repetition is left out";
         EXPECT_NEAR(cell.measured, 3, 1e-9);
     }
-    EXPECT_EQ(judged(twice, differences(clear, 1)).verdict, ClaimVerdict::refuted);
-    const ClaimResult open = judged(twice, differences(lost, 3));
+    EXPECT_EQ(evaluated(twice, differences(clear, 1)).verdict, ClaimVerdict::refuted);
+    const ClaimResult open = evaluated(twice, differences(lost, 3));
     EXPECT_EQ(open.verdict, ClaimVerdict::unresolved);
 }
 
@@ -124,18 +124,18 @@ TEST(ClaimRules, AFindingThatWasNotMeasuredTestsNothingAndItsNoteSaysWhy) {
     finding.quantity = rule.column;
     finding.value = finding.low = finding.high = std::nan("");
     finding.note = "skipped: too many tests";
-    const ClaimResult skipped = judgeFinding(rule, {finding});
+    const ClaimResult skipped = evaluateFinding(rule, {finding});
     EXPECT_EQ(skipped.verdict, ClaimVerdict::notTested);
     EXPECT_EQ(skipped.note, finding.note);
     finding.value = finding.low = finding.high = 1;
     finding.note = "one of two cells skipped";
-    const ClaimResult partly = judgeFinding(rule, {finding});
+    const ClaimResult partly = evaluateFinding(rule, {finding});
     EXPECT_EQ(partly.verdict, ClaimVerdict::confirmed);
     EXPECT_EQ(partly.note, finding.note);
 }
 
 TEST(ClaimRules, FewerRepetitionsThanSixResolveNothing) {
-    const ClaimResult result = judged(faster, [](const std::string& method, int particles, int repetition) {
+    const ClaimResult result = evaluated(faster, [](const std::string& method, int particles, int repetition) {
         return repetition == 2 ? std::nan("") : (method == "haze" ? 0.5 : 1) * particles;
     });
     EXPECT_EQ(result.verdict, ClaimVerdict::unresolved);
@@ -149,18 +149,18 @@ TEST(ClaimRules, AShareIsOfTheSumOfItsParts) {
             "{}\n",
             minimum);
     };
-    EXPECT_EQ(judged(rule(0.5), ratioOf(1)).verdict, ClaimVerdict::confirmed);
-    EXPECT_EQ(judged(rule(0.9), ratioOf(1)).verdict, ClaimVerdict::refuted);
-    EXPECT_NEAR(judged(rule(0.9), ratioOf(1)).measured, 0.8, 1e-9);
+    EXPECT_EQ(evaluated(rule(0.5), ratioOf(1)).verdict, ClaimVerdict::confirmed);
+    EXPECT_EQ(evaluated(rule(0.9), ratioOf(1)).verdict, ClaimVerdict::refuted);
+    EXPECT_NEAR(evaluated(rule(0.9), ratioOf(1)).measured, 0.8, 1e-9);
 }
 
 TEST(ClaimRules, AGrowthIsFromTheMinimumLoadToTheMaximum) {
     const std::string rule =
         "quantity = \"growth\"\ncolumn = \"frame_ms_median\"\nagainst = \"p.particles\"\nof = \"mist\"\nmin = ";
-    const ClaimResult result = judged(rule + "2\n", ratioOf(1));
+    const ClaimResult result = evaluated(rule + "2\n", ratioOf(1));
     EXPECT_NEAR(result.measured, 13.0 / 6, 0.05);
     EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
-    EXPECT_EQ(judged(rule + "3\n", ratioOf(1)).verdict, ClaimVerdict::refuted);
+    EXPECT_EQ(evaluated(rule + "3\n", ratioOf(1)).verdict, ClaimVerdict::refuted);
 }
 
 TEST(ClaimRules, AColumnMayBeTakenPerUnitOfAnother) {
@@ -172,9 +172,9 @@ TEST(ClaimRules, AColumnMayBeTakenPerUnitOfAnother) {
             return std::pow(particles, k) * scatter(particles, repetition, 5);
         };
     };
-    EXPECT_EQ(judged(rule, power(1)).verdict, ClaimVerdict::confirmed);
-    EXPECT_NEAR(judged(rule, power(1)).measured, 1, 0.02);
-    EXPECT_EQ(judged(rule, power(2)).verdict, ClaimVerdict::refuted);
+    EXPECT_EQ(evaluated(rule, power(1)).verdict, ClaimVerdict::confirmed);
+    EXPECT_NEAR(evaluated(rule, power(1)).measured, 1, 0.02);
+    EXPECT_EQ(evaluated(rule, power(2)).verdict, ClaimVerdict::refuted);
 }
 
 TEST(ClaimRules, AnExponentIsThatOfTheFittedCurve) {
@@ -185,26 +185,26 @@ TEST(ClaimRules, AnExponentIsThatOfTheFittedCurve) {
             return (1 + 0.01 * std::pow(particles, k)) * (1 + 0.1 * (scatter(particles, repetition, 4) - 1));
         };
     };
-    EXPECT_EQ(judged(rule + "min = 0.8\nmax = 1.2\n", power(1)).verdict, ClaimVerdict::confirmed);
-    EXPECT_EQ(judged(rule + "min = 0.8\nmax = 1.2\n", power(2)).verdict, ClaimVerdict::refuted);
+    EXPECT_EQ(evaluated(rule + "min = 0.8\nmax = 1.2\n", power(1)).verdict, ClaimVerdict::confirmed);
+    EXPECT_EQ(evaluated(rule + "min = 0.8\nmax = 1.2\n", power(2)).verdict, ClaimVerdict::refuted);
 }
 
 TEST(ClaimRules, ATrendIsTheRankCorrelationWithTheLoad) {
     const std::string rule =
         "quantity = \"trend\"\ncolumn = \"frame_ms_median\"\nagainst = \"p.particles\"\nof = \"mist\"\nmin = 0.9\n";
-    EXPECT_EQ(judged(rule, ratioOf(1)).verdict, ClaimVerdict::confirmed);
-    EXPECT_EQ(judged(rule, ratioOf(1)).measured, 1);
+    EXPECT_EQ(evaluated(rule, ratioOf(1)).verdict, ClaimVerdict::confirmed);
+    EXPECT_EQ(evaluated(rule, ratioOf(1)).measured, 1);
     const auto falling = [](const std::string&, int particles, int) { return 1000.0 - particles; };
-    EXPECT_EQ(judged(rule, falling).verdict, ClaimVerdict::refuted);
+    EXPECT_EQ(evaluated(rule, falling).verdict, ClaimVerdict::refuted);
     const auto upAndDown = [](const std::string&, int particles, int repetition) {
         return particles == 400 ? 1.0 : particles * scatter(particles, repetition, 6);
     };
-    EXPECT_EQ(judged(rule, upAndDown).verdict, ClaimVerdict::refuted);
+    EXPECT_EQ(evaluated(rule, upAndDown).verdict, ClaimVerdict::refuted);
     // Student's interval of alternating −1 and 1 is wider than the range of a correlation.
     const auto byTurns = [](const std::string&, int particles, int repetition) {
         return repetition % 2 ? 1.0 * particles : 1000.0 - particles;
     };
-    const ClaimResult wide = judged(rule, byTurns);
+    const ClaimResult wide = evaluated(rule, byTurns);
     EXPECT_EQ(wide.verdict, ClaimVerdict::unresolved);
     EXPECT_EQ(wide.low, -1);
     EXPECT_EQ(wide.high, 1);
@@ -216,25 +216,25 @@ TEST(ClaimRules, SlopesAreEqualForALineOnly) {
         "= "
         "1.25\n";
     const auto line = [](const std::string&, int particles, int) { return 500.0 - 0.5 * particles; };
-    EXPECT_EQ(judged(rule, line).verdict, ClaimVerdict::confirmed);
-    EXPECT_NEAR(judged(rule, line).measured, 1, 1e-12);
+    EXPECT_EQ(evaluated(rule, line).verdict, ClaimVerdict::confirmed);
+    EXPECT_NEAR(evaluated(rule, line).measured, 1, 1e-12);
     const auto inverse = [](const std::string&, int particles, int) { return 1e5 / particles; };
-    EXPECT_EQ(judged(rule, inverse).verdict, ClaimVerdict::refuted);
+    EXPECT_EQ(evaluated(rule, inverse).verdict, ClaimVerdict::refuted);
     // From 100, 400, 800: (1000 − 250)/300 = 2.5 and (250 − 125)/400 = 0.3125.
-    EXPECT_NEAR(judged(rule, inverse).measured, 0.125, 1e-12);
+    EXPECT_NEAR(evaluated(rule, inverse).measured, 0.125, 1e-12);
 }
 
 TEST(ClaimRules, CellsThatDisagreeMakeItDependAndTheConditionIsInWords) {
     const std::string rule = "quantity = \"value\"\ncolumn = \"frame_ms_median\"\nof = \"mist\"\nmax = 10\n";
     // 6, 7, 9 and 13 ms: the mean of 8.75 would hide the last one.
-    const ClaimResult result = judged(rule, ratioOf(1));
+    const ClaimResult result = evaluated(rule, ratioOf(1));
     EXPECT_EQ(result.verdict, ClaimVerdict::depends);
     EXPECT_EQ(result.condition, "true for particles up to 400, false from 800");
     ASSERT_EQ(result.cells.size(), 4u);
     EXPECT_EQ(std::ranges::count(result.cells, ClaimVerdict::confirmed, &ClaimCell::verdict), 3);
-    EXPECT_EQ(judged(rule + "over = \"none\"\n", ratioOf(1)).verdict, ClaimVerdict::depends);
+    EXPECT_EQ(evaluated(rule + "over = \"none\"\n", ratioOf(1)).verdict, ClaimVerdict::depends);
     const auto slow = [](const std::string&, int, int) { return 20.0; };
-    EXPECT_EQ(judged(rule, slow).verdict, ClaimVerdict::refuted);
+    EXPECT_EQ(evaluated(rule, slow).verdict, ClaimVerdict::refuted);
 }
 
 TEST(ClaimRules, ACrossoverIsNotHiddenByTheMean) {
@@ -243,7 +243,7 @@ TEST(ClaimRules, ACrossoverIsNotHiddenByTheMean) {
         const double ratio = 0.8 + 0.0005 * (particles - 100);
         return (method == "haze" ? ratio : 1) * particles * scatter(particles, repetition, method == "haze" ? 1 : 2);
     };
-    const ClaimResult result = judged(faster, crossing);
+    const ClaimResult result = evaluated(faster, crossing);
     EXPECT_LT(result.measured, 0.97);
     EXPECT_EQ(result.verdict, ClaimVerdict::depends);
     EXPECT_EQ(result.condition, "true for particles up to 400, false from 800");
@@ -258,7 +258,7 @@ TEST(ClaimRules, ADisagreementByChanceIsNoCondition) {
             const auto stream = static_cast<std::uint32_t>(10 + 2 * trial + (method == "haze"));
             return particles * scatter(particles, repetition, stream);
         };
-        depends += judged(faster, even).verdict == ClaimVerdict::depends;
+        depends += evaluated(faster, even).verdict == ClaimVerdict::depends;
     }
     // Two errors of 0.05/2 each at most would have to meet: 400 · 0.05² / 2 = 0.5 on average.
     EXPECT_LE(depends, 4);
@@ -267,13 +267,13 @@ TEST(ClaimRules, ADisagreementByChanceIsNoCondition) {
 TEST(ClaimRules, WhatNeedsNoRepetitionHoldsInAllCellsOrNone) {
     const std::string rule =
         "quantity = \"ratio\"\ncolumn = \"popping\"\nof = \"haze\"\nwith = \"mist\"\nover = \"none\"\nmax = 1\n";
-    EXPECT_EQ(judged(rule, ratioOf(0.9)).verdict, ClaimVerdict::confirmed);
-    EXPECT_EQ(judged(rule, ratioOf(1.1)).verdict, ClaimVerdict::refuted);
-    EXPECT_TRUE(std::isnan(judged(rule, ratioOf(1.1)).low));
-    EXPECT_EQ(
-        judged(rule, [](const std::string& method, int particles, int) { return method == "haze" ? particles : 300.0; })
-            .condition,
-        "true for particles up to 200, false from 400");
+    EXPECT_EQ(evaluated(rule, ratioOf(0.9)).verdict, ClaimVerdict::confirmed);
+    EXPECT_EQ(evaluated(rule, ratioOf(1.1)).verdict, ClaimVerdict::refuted);
+    EXPECT_TRUE(std::isnan(evaluated(rule, ratioOf(1.1)).low));
+    EXPECT_EQ(evaluated(rule, [](const std::string& method, int particles,
+                                 int) { return method == "haze" ? particles : 300.0; })
+                  .condition,
+              "true for particles up to 200, false from 400");
 }
 
 /// Rows of both methods for each seed, optionally with an invalid one. `value(method, seed)` is the metric.
@@ -293,14 +293,14 @@ TEST(ClaimRules, ChanceIsMeasuredOverSeedsAndPairedByThem) {
     // Clouds differ by a factor of ten; only pairs with the same cloud show that haze pops a tenth less.
     const auto value = [](bool haze, int seed) { return (haze ? 0.9 : 1) * seed * scatter(seed, 1, haze ? 7 : 8); };
     const files::CsvTable ten = seedTable(10, value);
-    const ClaimResult result = judgeRule(ruledClaim(bySeed).rule, ResultRows(ten, nullptr));
+    const ClaimResult result = evaluateRule(ruledClaim(bySeed).rule, ResultRows(ten, nullptr));
     EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
     EXPECT_NEAR(result.measured, 0.9, 0.01);
     EXPECT_LT(result.low, result.high);
     ASSERT_EQ(result.cells.size(), 1u);
     EXPECT_EQ(result.cells[0].turns, 10u);
     const files::CsvTable four = seedTable(4, value);
-    const ClaimResult few = judgeRule(ruledClaim(bySeed).rule, ResultRows(four, nullptr));
+    const ClaimResult few = evaluateRule(ruledClaim(bySeed).rule, ResultRows(four, nullptr));
     EXPECT_EQ(few.verdict, ClaimVerdict::unresolved);
     EXPECT_EQ(few.note, "4 seeds, 5 are needed");
 }
@@ -308,11 +308,11 @@ TEST(ClaimRules, ChanceIsMeasuredOverSeedsAndPairedByThem) {
 TEST(ClaimRules, InvalidRunsAreNotUsed) {
     const auto value = [](bool haze, int seed) { return seed == 3 && haze ? 1e6 : haze ? 0.9 : 1.0; };
     const files::CsvTable rows = seedTable(6, value, 3);
-    const ClaimResult result = judgeRule(ruledClaim(bySeed).rule, ResultRows(rows, nullptr));
+    const ClaimResult result = evaluateRule(ruledClaim(bySeed).rule, ResultRows(rows, nullptr));
     EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
     EXPECT_EQ(result.cells.at(0).turns, 5u);
     const files::CsvTable one = seedTable(1, value, 1);
-    EXPECT_EQ(judgeRule(ruledClaim(bySeed).rule, ResultRows(one, nullptr)).note,
+    EXPECT_EQ(evaluateRule(ruledClaim(bySeed).rule, ResultRows(one, nullptr)).note,
               "no popping of haze in a completed run of s; invalid: clipped (1 run)");
 }
 
@@ -325,7 +325,7 @@ TEST(ClaimRules, EachVariantOfARatioIsACellOfItsOwn) {
             text += fmt::format("{}{}{},done,{},plain,{},{},{}\n", method, layout, repetition, method, repetition,
                                 layout, ms * scatter(repetition, repetition, ms > 1 ? 1 : 2));
     const files::CsvTable rows = files::CsvTable::parseText(text, "summary.csv");
-    const ClaimResult result = judgeRule(ruledClaim(faster).rule, ResultRows(rows, nullptr));
+    const ClaimResult result = evaluateRule(ruledClaim(faster).rule, ResultRows(rows, nullptr));
     EXPECT_EQ(result.verdict, ClaimVerdict::depends);
     EXPECT_EQ(result.condition, "true with layout old, false with new");
 }
@@ -334,7 +334,7 @@ TEST(ClaimRules, WhatBothSidesNameAlikeIsPaired) {
     const std::string paired =
         "quantity = \"ratio\"\ncolumn = \"frame_ms_median\"\nof = \"haze particles=100|800\"\n"
         "with = \"mist particles=100|800\"\nmax = 1\n";
-    const ClaimResult result = judged(paired, ratioOf(0.9));
+    const ClaimResult result = evaluated(paired, ratioOf(0.9));
     EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
     ASSERT_EQ(result.cells.size(), 2u);
     EXPECT_EQ(textOf(result.cells[0].cell), "particles=100");
@@ -342,17 +342,17 @@ TEST(ClaimRules, WhatBothSidesNameAlikeIsPaired) {
     const std::string crossed =
         "quantity = \"ratio\"\ncolumn = \"frame_ms_median\"\nof = \"haze particles=100|800\"\n"
         "with = \"mist particles=100\"\nmax = 1\n";
-    EXPECT_EQ(judged(crossed, ratioOf(0.9)).verdict, ClaimVerdict::depends);
+    EXPECT_EQ(evaluated(crossed, ratioOf(0.9)).verdict, ClaimVerdict::depends);
 }
 
 TEST(ClaimRules, ASceneCanBeNamed) {
     EXPECT_EQ(parseSelection("haze scene=plain speed=5", "of"),
               (Selection{{"method", "haze"}, {"scene", "plain"}, {"p.speed", "5"}}));
     EXPECT_EQ(textOf(parseSelection("haze scene=plain", "of")), "haze scene=plain");
-    EXPECT_EQ(judged(faster, ratioOf(0.9)).verdict,
-              judged("quantity = \"ratio\"\ncolumn = \"frame_ms_median\"\nof = \"haze scene=plain\"\n"
-                     "with = \"mist scene=plain\"\nmax = 1\n",
-                     ratioOf(0.9))
+    EXPECT_EQ(evaluated(faster, ratioOf(0.9)).verdict,
+              evaluated("quantity = \"ratio\"\ncolumn = \"frame_ms_median\"\nof = \"haze scene=plain\"\n"
+                        "with = \"mist scene=plain\"\nmax = 1\n",
+                        ratioOf(0.9))
                   .verdict);
 }
 
@@ -374,35 +374,35 @@ TEST(ClaimRules, CounterexamplesRefuteAlthoughACellIsOpen) {
             return 1.4 * (up ? factor : 1 / factor);
         });
     };
-    const ClaimResult result = judged(faster, openAt({800}, 2));
+    const ClaimResult result = evaluated(faster, openAt({800}, 2));
     EXPECT_EQ(result.verdict, ClaimVerdict::refuted);
     EXPECT_EQ(result.note, "of 4 cases, 0 confirmed, 3 refuted");
     EXPECT_TRUE(result.condition.empty());
     // Half of the cells do not suffice, although the mean is just as far outside.
-    const ClaimResult half = judged(faster, openAt({400, 800}, 2));
+    const ClaimResult half = evaluated(faster, openAt({400, 800}, 2));
     EXPECT_EQ(half.verdict, ClaimVerdict::unresolved);
     EXPECT_GT(half.low, 1.3);
     // Nor do three of four cells if the mean is undecided.
-    EXPECT_EQ(judged(faster, openAt({800}, 50)).verdict, ClaimVerdict::unresolved);
+    EXPECT_EQ(evaluated(faster, openAt({800}, 50)).verdict, ClaimVerdict::unresolved);
     // Nor if the undecided cell is more likely true.
     const auto leaning = ratioBy([](int particles, int repetition) {
         return particles < 800 ? 1.4 : 0.9 * (repetition % 2 == 0 ? 1.5 : 1 / 1.5);
     });
-    const ClaimResult undecided = judged(faster, leaning);
+    const ClaimResult undecided = evaluated(faster, leaning);
     EXPECT_EQ(undecided.verdict, ClaimVerdict::unresolved);
     EXPECT_GT(undecided.low, 1);
     // Only all cells together confirm the claim.
     const auto quicker = ratioBy([](int particles, int repetition) {
         return 0.7 * (particles < 800 ? 1 : repetition % 2 == 0 ? 2 : 0.5);
     });
-    EXPECT_EQ(judged(faster, quicker).verdict, ClaimVerdict::unresolved);
+    EXPECT_EQ(evaluated(faster, quicker).verdict, ClaimVerdict::unresolved);
     // With a cell that is certainly true, the verdict is `depends`.
-    EXPECT_EQ(judged(faster, ratioBy([](int particles, int) { return particles == 100 ? 0.7 : 1.4; })).verdict,
+    EXPECT_EQ(evaluated(faster, ratioBy([](int particles, int) { return particles == 100 ? 0.7 : 1.4; })).verdict,
               ClaimVerdict::depends);
 }
 
 /// Rows of one method over voxel edges and speeds; `value(depth, speed)`.
-ClaimResult judgedOverEdges(const std::function<double(int, int)>& value) {
+ClaimResult evaluatedOverEdges(const std::function<double(int, int)>& value) {
     std::string text = "run_id,status,method,scene,seed,repetition,p.depth,p.speed,p.world_edge,gaps\n";
     int id = 0;
     for (const int depth : {4, 5, 6, 7, 8})
@@ -411,15 +411,15 @@ ClaimResult judgedOverEdges(const std::function<double(int, int)>& value) {
                 text += fmt::format("run{},done,haze,plain,{},1,{},{},128,{}\n", id++, seed, depth, speed,
                                     value(depth, speed) * (1 + 0.001 * seed));
     const files::CsvTable rows = files::CsvTable::parseText(text, "summary.csv");
-    return judgeRule(ruledClaim("quantity = \"value\"\ncolumn = \"gaps\"\nof = \"haze\"\nover = \"seeds\"\n"
-                                "max = 1\nalong = \"p.voxel_edge\"\n")
-                         .rule,
-                     ResultRows(rows, nullptr));
+    return evaluateRule(ruledClaim("quantity = \"value\"\ncolumn = \"gaps\"\nof = \"haze\"\nover = \"seeds\"\n"
+                                   "max = 1\nalong = \"p.voxel_edge\"\n")
+                            .rule,
+                        ResultRows(rows, nullptr));
 }
 
 TEST(ClaimRules, AConditionCanBeToldAlongAnAxis) {
     // Edges 8, 4, 2, 1, 0.5 m: true from 2 m on at 5 and 10 m/s, but only at 1 m and 8 m at 40 m/s.
-    const ClaimResult result = judgedOverEdges([](int depth, int speed) {
+    const ClaimResult result = evaluatedOverEdges([](int depth, int speed) {
         const double edge = 128.0 / (1 << depth);
         return (speed < 40 ? edge >= 2 : edge == 1 || edge == 8) ? 0.5 : 2;
     });
@@ -430,14 +430,14 @@ TEST(ClaimRules, AConditionCanBeToldAlongAnAxis) {
     EXPECT_EQ(intervalAlong(result.cells, "p.voxel_edge"),
               "true for voxel_edge 8 m, in some configurations for 1 to 4 m");
     EXPECT_EQ(intervalAlong(result.cells, "p.particles"), "");
-    EXPECT_EQ(judgedOverEdges([](int, int) { return 0.5; }).condition, "");
-    const ClaimResult bySpeed = judgedOverEdges([](int, int speed) { return speed < 40 ? 0.5 : 2; });
+    EXPECT_EQ(evaluatedOverEdges([](int, int) { return 0.5; }).condition, "");
+    const ClaimResult bySpeed = evaluatedOverEdges([](int, int speed) { return speed < 40 ? 0.5 : 2; });
     EXPECT_EQ(intervalAlong(bySpeed.cells, "p.voxel_edge"),
               "true for no voxel_edge in every configuration, in some configurations for 0.5 to 8 m");
     // Values equal to their limit are undecided.
-    EXPECT_EQ(judgedOverEdges([](int depth, int) { return depth == 4   ? 0.5
-                                                          : depth == 5 ? 0.997
-                                                                       : 2; }).condition,
+    EXPECT_EQ(evaluatedOverEdges([](int depth, int) { return depth == 4   ? 0.5
+                                                             : depth == 5 ? 0.997
+                                                                          : 2; }).condition,
               "by voxel_edge: true for 8, false for 0.5 to 2, open for 4 (speed=10, speed=40, speed=5)");
 }
 
@@ -454,7 +454,7 @@ TEST(ClaimRules, AMatchedRatioIsTakenWhereTheOtherColumnIsTheSame) {
     const std::string rule =
         "quantity = \"matched\"\ncolumn = \"primitives_median\"\nmatch = \"gaps\"\nagainst = \"p.particles\"\n"
         "of = \"haze\"\nwith = \"mist\"\nover = \"seeds\"\nmax = 0.5\n";
-    const ClaimResult result = judgeRule(ruledClaim(rule).rule, ResultRows(rows, nullptr));
+    const ClaimResult result = evaluateRule(ruledClaim(rule).rule, ResultRows(rows, nullptr));
     EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
     EXPECT_NEAR(result.measured, 0.25, 0.002);
     // With 1600 and 3200 particles, haze has fewer gaps than mist ever reaches.
@@ -467,8 +467,8 @@ const std::string slowed =
 
 ClaimResult controlled(const std::string& rule, const ValueOf& value) {
     const files::CsvTable rows = table(value);
-    return judgeWithControls(ruledClaim(rule),
-                             [&](const Rule& each) { return judgeRule(each, ResultRows(rows, nullptr)); });
+    return evaluateWithControls(ruledClaim(rule),
+                                [&](const Rule& each) { return evaluateRule(each, ResultRows(rows, nullptr)); });
 }
 
 TEST(ClaimControls, OneThatTurnsLeavesTheVerdict) {
@@ -511,8 +511,8 @@ TEST(ClaimControls, RunsThatAreMissingAreSaid) {
 
 TEST(ClaimRules, WhatIsMissingIsNamed) {
     const auto none = [](const std::string&, int, int) { return std::nan(""); };
-    EXPECT_EQ(judged(faster, none).verdict, ClaimVerdict::notTested);
-    EXPECT_EQ(judged(faster, none).note, "no frame_ms_median of haze in a completed run of s");
+    EXPECT_EQ(evaluated(faster, none).verdict, ClaimVerdict::notTested);
+    EXPECT_EQ(evaluated(faster, none).note, "no frame_ms_median of haze in a completed run of s");
     const Claim untestable =
         parseClaims("[[claim]]\nid = \"X\"\ntext = \"t\"\nquantity = \"none\"\nmissing = \"no numbers\"", "c").at(0);
     EXPECT_EQ(untestable.missing, "no numbers");

@@ -25,7 +25,7 @@ std::set<std::string> columnsWithin(const Rule& rule) {
 }
 
 /// Replaces the depth by the edge of the finest voxels.
-void tellEdge(Selection& cell, const std::string& worldEdge) {
+void replaceDepthByEdge(Selection& cell, const std::string& worldEdge) {
     const auto depth = std::ranges::find(cell, "p.depth", &Selection::value_type::first);
     if (depth == cell.end()) return;
     const auto world = files::numberOf(worldEdge), levels = files::numberOf(depth->second);
@@ -54,7 +54,8 @@ class SampleTable {
         for (const auto& [key, turns] : values_) keys.push_back(key);
         for (const auto& [key, turns] : values_) {
             samples.cells.push_back(rows_.cellValues(key, keys));
-            if (rule_.along == voxelEdgeColumn) tellEdge(samples.cells.back(), rows_.valueIn(key, "p.world_edge"));
+            if (rule_.along == voxelEdgeColumn)
+                replaceDepthByEdge(samples.cells.back(), rows_.valueIn(key, "p.world_edge"));
             for (const auto& [turn, list] : turns) {
                 const bool once = rule_.over != Chance::repetitions;
                 samples.list.push_back(meanOf(once ? std::span(list).first(1) : std::span(list)));

@@ -77,7 +77,7 @@ double familyLevel(std::size_t cellCount) {
     return 1 - (1 - intervalConfidence) / static_cast<double>(cellCount);
 }
 
-ClaimCell judgeCell(const Rule& rule, const std::vector<double>& values, const Scale& scale, std::size_t cellCount) {
+ClaimCell evaluateCell(const Rule& rule, const std::vector<double>& values, const Scale& scale, std::size_t cellCount) {
     ClaimCell cell;
     cell.turns = values.size();
     const MeanAndError found = meanAndError(values);
@@ -98,7 +98,7 @@ ClaimCell judgeCell(const Rule& rule, const std::vector<double>& values, const S
 }
 
 /// Evaluates the ratio of the means instead of single ratios, if a denominator is not above 0 in some turn.
-ClaimCell judgeRatioNearZero(const Rule& rule, const std::vector<ClaimSample>& samples, std::size_t cellCount) {
+ClaimCell evaluateRatioNearZero(const Rule& rule, const std::vector<ClaimSample>& samples, std::size_t cellCount) {
     ClaimCell cell;
     cell.turns = samples.size();
     std::vector<std::pair<double, double>> pairs;
@@ -164,9 +164,9 @@ ClaimVerdict verdictOfAll(const Rule& rule, const std::vector<ClaimCell>& cells,
 
 /// Why cells are undecided: too few turns, or intervals that contain both true and false values.
 std::string openCells(const Rule& rule, const std::vector<ClaimCell>& cells) {
-    const auto fewest = std::ranges::min_element(cells, {}, &ClaimCell::turns);
-    if (rule.quantity != Quantity::finding && fewest->turns < minimumTurns(rule))
-        return fmt::format("{} {}{}, {} are needed", fewest->turns, turnName(rule), fewest->turns == 1 ? "" : "s",
+    const auto smallest = std::ranges::min_element(cells, {}, &ClaimCell::turns);
+    if (rule.quantity != Quantity::finding && smallest->turns < minimumTurns(rule))
+        return fmt::format("{} {}{}, {} are needed", smallest->turns, turnName(rule), smallest->turns == 1 ? "" : "s",
                            minimumTurns(rule));
     if (cells.size() == 1) return "";
     return fmt::format("of {} cases, {} confirmed, {} refuted", cells.size(), countOf(cells, ClaimVerdict::confirmed),
@@ -186,7 +186,7 @@ bool isPartly(const ClaimResult& result) {
             countOf(result.cells, ClaimVerdict::refuted) < result.cells.size());
 }
 
-void judgeSamples(const Rule& rule, const ClaimSamples& samples, ClaimResult& result) {
+void evaluateSamples(const Rule& rule, const ClaimSamples& samples, ClaimResult& result) {
     const Scale scale = scaleOf(rule, samples);
     std::vector<std::vector<ClaimSample>> samplesOfCell(samples.cells.size());
     for (const ClaimSample& sample : samples.list) samplesOfCell[sample.cell].push_back(sample);
@@ -196,8 +196,8 @@ void judgeSamples(const Rule& rule, const ClaimSamples& samples, ClaimResult& re
         values.reserve(list.size());
         for (const ClaimSample& sample : list) values.push_back(scale.to(sample.value));
         const bool isNearZero = std::ranges::any_of(values, [](double value) { return std::isnan(value); });
-        result.cells.push_back(isNearZero ? judgeRatioNearZero(rule, list, samplesOfCell.size())
-                                          : judgeCell(rule, values, scale, samplesOfCell.size()));
+        result.cells.push_back(isNearZero ? evaluateRatioNearZero(rule, list, samplesOfCell.size())
+                                          : evaluateCell(rule, values, scale, samplesOfCell.size()));
         result.cells.back().cell = samples.cells[i];
     }
     measureAll(rule, samples, scale, result);
@@ -210,7 +210,7 @@ void judgeSamples(const Rule& rule, const ClaimSamples& samples, ClaimResult& re
                         rule.match));
 }
 
-void judgeCurves(const Rule& rule, const CostCurves& curves, ClaimResult& result) {
+void evaluateCurves(const Rule& rule, const CostCurves& curves, ClaimResult& result) {
     std::vector<double> exponents;
     for (const CostCurve& curve : curves.curves) {
         ClaimCell& cell = result.cells.emplace_back();
@@ -237,7 +237,7 @@ void judgeCurves(const Rule& rule, const CostCurves& curves, ClaimResult& result
 
 /// One of `cellCount` cells. A finding has its own 95 % interval. The interval that holds for all cells together is
 /// wider, by the ratio of Student's quantiles.
-ClaimCell judgeOneFinding(const Rule& rule, const StoredFinding& finding, std::size_t cellCount) {
+ClaimCell evaluateOneFinding(const Rule& rule, const StoredFinding& finding, std::size_t cellCount) {
     ClaimCell cell{{}, finding.value, finding.low, finding.high};
     if (cellCount > 1) cell.cell = {{"finding", finding.quantity}};
     cell.verdict = cell.ofAll = verdictOf(rule, finding.low, finding.high);
@@ -274,25 +274,25 @@ std::string_view controlName(ControlState state) {
     return states.wordOf(state);
 }
 
-ClaimResult judgeRule(const Rule& rule, const ResultRows& rows) {
+ClaimResult evaluateRule(const Rule& rule, const ResultRows& rows) {
     ClaimResult result;
     if (rule.quantity == Quantity::exponent) {
         const CostCurves curves = costCurvesOf(rule, rows);
         result.note = curves.missing;
         if (!curves.missing.empty()) return result;
-        judgeCurves(rule, curves, result);
+        evaluateCurves(rule, curves, result);
         takeRuns(curves.rows, rows, result);
         return result;
     }
     const ClaimSamples samples = samplesOf(rule, rows);
     result.note = samples.missing;
     if (!samples.missing.empty()) return result;
-    judgeSamples(rule, samples, result);
+    evaluateSamples(rule, samples, result);
     takeRuns(samples.rows, rows, result);
     return result;
 }
 
-ClaimResult judgeFinding(const Rule& rule, const std::vector<StoredFinding>& findings) {
+ClaimResult evaluateFinding(const Rule& rule, const std::vector<StoredFinding>& findings) {
     ClaimResult result;
     const std::vector<std::string> quantities = alternativesIn(rule.column);
     std::vector<double> values;
@@ -310,7 +310,7 @@ ClaimResult judgeFinding(const Rule& rule, const std::vector<StoredFinding>& fin
             result.cells.clear();
             return result;
         }
-        result.cells.push_back(judgeOneFinding(rule, *found, quantities.size()));
+        result.cells.push_back(evaluateOneFinding(rule, *found, quantities.size()));
         values.push_back(found->value);
     }
     result.measured = meanAndError(values).mean;

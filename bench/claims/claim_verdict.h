@@ -81,8 +81,8 @@ struct ClaimResult {
 };
 
 /// Evaluates a rule whose quantity is computed from the rows of a summary.
-[[nodiscard]] ClaimResult judgeRule(const Rule& rule, const ResultRows& rows);
-[[nodiscard]] ClaimResult judgeFinding(const Rule& rule, const std::vector<StoredFinding>& findings);
+[[nodiscard]] ClaimResult evaluateRule(const Rule& rule, const ResultRows& rows);
+[[nodiscard]] ClaimResult evaluateFinding(const Rule& rule, const std::vector<StoredFinding>& findings);
 
 /// In which cells a claim is true, in words: `true for particles up to 2000, false from 5000`. If no single column
 /// separates true cells from false ones, their numbers. With a column `along`: for each combination of the other

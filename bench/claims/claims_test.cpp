@@ -68,9 +68,9 @@ TEST(Claims, ThoseOfEveryPaperCanBeReadAndTheirSuitesAreThePapers) {
                 << claim.id;
     }
     const auto empty = files::CsvTable::parseText("run_id,status,repetition\n", "summary.csv");
-    for (const JudgedClaim& judged : judgeClaims("carr2006", empty)) {
-        EXPECT_EQ(judged.result.verdict, ClaimVerdict::notTested) << judged.claim.id;
-        EXPECT_NE(judged.result.note, "") << judged.claim.id;
+    for (const EvaluatedClaim& evaluated : evaluateClaims("carr2006", empty)) {
+        EXPECT_EQ(evaluated.result.verdict, ClaimVerdict::notTested) << evaluated.claim.id;
+        EXPECT_NE(evaluated.result.note, "") << evaluated.claim.id;
     }
 }
 
@@ -146,14 +146,14 @@ TEST(Claims, ReadTheRunsOfTheirSuiteAndNoOthers) {
                                 isSuites ? "" : "x", cell.spec.method, repetition, cell.spec.parameters.at("particles"),
                                 cell.spec.parameters.at("mode"), cell.spec.parameters.at("depth"), ms);
             }
-    for (const JudgedClaim& judged : judgeClaims("carr2006", files::CsvTable::parseText(text, "summary.csv")))
-        if (judged.claim.id == "R2a") {
-            EXPECT_EQ(judged.result.verdict, ClaimVerdict::confirmed) << judged.result.note;
-            EXPECT_EQ(judged.result.control, ControlState::turned) << judged.result.controlNote;
-            EXPECT_NEAR(judged.result.measured, 0.5, 1e-9);
+    for (const EvaluatedClaim& evaluated : evaluateClaims("carr2006", files::CsvTable::parseText(text, "summary.csv")))
+        if (evaluated.claim.id == "R2a") {
+            EXPECT_EQ(evaluated.result.verdict, ClaimVerdict::confirmed) << evaluated.result.note;
+            EXPECT_EQ(evaluated.result.control, ControlState::turned) << evaluated.result.controlNote;
+            EXPECT_NEAR(evaluated.result.measured, 0.5, 1e-9);
         }
     const auto csv = files::CsvTable::parseText(
-        claimsCsv(judgeClaims("carr2006", files::CsvTable::parseText(text, "summary.csv"))), "claims.csv");
+        claimsCsv(evaluateClaims("carr2006", files::CsvTable::parseText(text, "summary.csv"))), "claims.csv");
     for (std::size_t row = 0; row < csv.rows(); ++row)
         if (csv.cell(row, "id") == "R2a") {
             EXPECT_EQ(csv.cell(row, "verdict"), "confirmed");
@@ -163,28 +163,28 @@ TEST(Claims, ReadTheRunsOfTheirSuiteAndNoOthers) {
 TEST(Claims, OfTheDeviceSaySo) {
     const std::string head = "[[claim]]\nid = \"X\"\ntext = \"t\"\nquantity = \"none\"\nmissing = \"m\"\n";
     EXPECT_THROW((void)parseClaims(head + "device = true\n", "claims.toml"), InputError) << "it has no verdict";
-    JudgedClaim judged;
-    judged.result.verdict = ClaimVerdict::refuted;
-    EXPECT_EQ(verdictText(judged), "refuted");
-    judged.claim = claimOf(
+    EvaluatedClaim evaluated;
+    evaluated.result.verdict = ClaimVerdict::refuted;
+    EXPECT_EQ(verdictText(evaluated), "refuted");
+    evaluated.claim = claimOf(
         "device = true\nquantity = \"value\"\ncolumn = \"fps_avg\"\nof = \"haze\"\nmin = 1\n"
         "[[claim.control]]\nwhy = \"w\"\ngives = \"refuted\"\nof = \"fog\"\n");
-    EXPECT_EQ(verdictText(judged), "refuted on this device");
-    EXPECT_EQ(tabulate({judged}).rows.at(0).at(1), "refuted on this device");
-    const auto csv = files::CsvTable::parseText(claimsCsv({judged}), "claims.csv");
+    EXPECT_EQ(verdictText(evaluated), "refuted on this device");
+    EXPECT_EQ(tabulate({evaluated}).rows.at(0).at(1), "refuted on this device");
+    const auto csv = files::CsvTable::parseText(claimsCsv({evaluated}), "claims.csv");
     EXPECT_EQ(csv.cell(0, "verdict"), "refuted");
     EXPECT_EQ(csv.cell(0, "verdict_text"), "refuted on this device");
-    judged.result.verdict = ClaimVerdict::untestable;
-    EXPECT_EQ(verdictText(judged), "untestable");
+    evaluated.result.verdict = ClaimVerdict::untestable;
+    EXPECT_EQ(verdictText(evaluated), "untestable");
 }
 
 TEST(Claims, OfTheDeviceAreToldForEachMachine) {
     const auto told = [](bool device, const std::vector<ClaimVerdict>& ofMachines) {
-        JudgedClaim judged;
-        judged.claim.device = device;
-        judged.result.verdict = ClaimVerdict::unresolved;
-        tellByMachine(judged, ofMachines);
-        return verdictText(judged) + "; " + judged.result.condition;
+        EvaluatedClaim evaluated;
+        evaluated.claim.device = device;
+        evaluated.result.verdict = ClaimVerdict::unresolved;
+        tellByMachine(evaluated, ofMachines);
+        return verdictText(evaluated) + "; " + evaluated.result.condition;
     };
     using enum ClaimVerdict;
     EXPECT_EQ(told(true, {confirmed, refuted}), "depends; confirmed on machine 1, refuted on machine 2");
@@ -196,20 +196,20 @@ TEST(Claims, OfTheDeviceAreToldForEachMachine) {
 }
 
 TEST(Claims, ThatDependOnANumberSayWhereTheyAreTrue) {
-    JudgedClaim judged;
-    judged.claim.rule.along = "p.voxel_edge";
+    EvaluatedClaim evaluated;
+    evaluated.claim.rule.along = "p.voxel_edge";
     const auto cell = [](const char* edge, ClaimVerdict verdict) {
         ClaimCell made;
         made.cell = {{"p.voxel_edge", edge}};
         made.verdict = verdict;
         return made;
     };
-    judged.result.verdict = ClaimVerdict::depends;
-    judged.result.cells = {cell("4", ClaimVerdict::confirmed), cell("2", ClaimVerdict::confirmed),
-                           cell("1", ClaimVerdict::refuted)};
-    EXPECT_EQ(verdictText(judged), "depends: true for voxel_edge 2 to 4 m");
-    judged.result.verdict = ClaimVerdict::refuted;
-    EXPECT_EQ(verdictText(judged), "refuted");
+    evaluated.result.verdict = ClaimVerdict::depends;
+    evaluated.result.cells = {cell("4", ClaimVerdict::confirmed), cell("2", ClaimVerdict::confirmed),
+                              cell("1", ClaimVerdict::refuted)};
+    EXPECT_EQ(verdictText(evaluated), "depends: true for voxel_edge 2 to 4 m");
+    evaluated.result.verdict = ClaimVerdict::refuted;
+    EXPECT_EQ(verdictText(evaluated), "refuted");
 }
 
 TEST(Claims, EveryColumnOfTheCsvIsDescribed) {

@@ -26,7 +26,7 @@ std::vector<std::string> experimentNames() {
 
 std::vector<StoredFinding> runExperiment(std::string_view name, bool quick, std::uint64_t seed) {
     const ExperimentInfo& info = findExperiment(name);
-    LentContext context(seed, quick);
+    ProgramContext context(seed, quick);
     std::vector<StoredFinding> findings;
     for (Finding& finding : info.run(context)) findings.push_back({std::move(finding), info.id});
     return findings;

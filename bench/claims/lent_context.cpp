@@ -28,14 +28,14 @@ class LentWorld final : public ExperimentWorld {
 
 }  // namespace
 
-gpu::Device& LentContext::device() {
+gpu::Device& ProgramContext::device() {
     if (!device_) device_.emplace();
     return *device_;
 }
 
-std::unique_ptr<ExperimentWorld> LentContext::world(const std::string& scene,
-                                                    const std::map<std::string, std::string>& parameters, int width,
-                                                    int height) {
+std::unique_ptr<ExperimentWorld> ProgramContext::world(const std::string& scene,
+                                                       const std::map<std::string, std::string>& parameters, int width,
+                                                       int height) {
     ParameterValues values(worldParameters());
     for (const auto& [name, text] : parameters) values.set(name, text);
     return std::make_unique<LentWorld>(scene, values, seed_, width, height);

@@ -15,9 +15,9 @@
 
 namespace dustbench::bench {
 
-class LentContext final : public ExperimentContext {
+class ProgramContext final : public ExperimentContext {
  public:
-    explicit LentContext(std::uint64_t seed, bool quick = false) : seed_(seed), quick_(quick) {}
+    explicit ProgramContext(std::uint64_t seed, bool quick = false) : seed_(seed), quick_(quick) {}
 
     [[nodiscard]] std::uint64_t seed() const override { return seed_; }
     [[nodiscard]] bool quick() const override { return quick_; }

@@ -25,10 +25,10 @@ bool sameValue(const std::string& a, const std::string& b) {
 }  // namespace
 
 ResultRows::ResultRows(const files::CsvTable& table, const std::set<std::string>* runIds) : table_(table) {
-    const bool judgesValidity = table.hasColumn("invalid");
+    const bool evaluatesValidity = table.hasColumn("invalid");
     for (std::size_t row = 0; row < table.rows(); ++row) {
         if (table.cell(row, "status") != "done" || (runIds && !runIds->contains(table.cell(row, "run_id")))) continue;
-        (judgesValidity && !table.cell(row, "invalid").empty() ? invalid_ : rows_).push_back(row);
+        (evaluatesValidity && !table.cell(row, "invalid").empty() ? invalid_ : rows_).push_back(row);
     }
     for (const std::string& column : table.header())
         if (column.starts_with("p.") || std::ranges::find(identityColumns, column) != identityColumns.end())

@@ -67,7 +67,7 @@ void writeSheet(const bench::Suite& suite, const bench::ResultsFolder& results) 
             runs.push_back({id, cell.spec.method + (cell.label.empty() ? "" : " " + cell.label),
                             std::filesystem::exists(results.runFolder(id) / "metrics.csv")});
     }
-    if (std::ranges::none_of(runs, &bench::SheetRun::judged)) {
+    if (std::ranges::none_of(runs, &bench::SheetRun::evaluated)) {
         std::cout << "no contact sheet: no run could be compared with a reference image\n";
         return;
     }
@@ -116,8 +116,8 @@ int compare(const CompareOptions& options) {
     refuseOthers(options, false);
     bench::RunSpec base = options.world.toWorldSpec();
     base.frames = options.frames;
-    base.judging.emplace();
-    if (!options.moments.empty()) base.judging->moments = bench::parseFrameRange("--moments", options.moments);
+    base.metricPlan.emplace();
+    if (!options.moments.empty()) base.metricPlan->moments = bench::parseFrameRange("--moments", options.moments);
     bench::Suite suite = bench::sideBySideSuite(options.methods, singleValues(options.world.parameters), base,
                                                 static_cast<int>(options.repetitions));
     suite.title += fmt::format(": {}{}, {} frame{}", base.scene, base.drive.empty() ? "" : ", " + base.drive,

@@ -43,7 +43,7 @@ int exportVolumes(const ExportOptions& options) {
     ProgressPrinter printer;
     printer.started(1, 1, run, 1, -1);
     const auto progress = [&printer](std::string_view phase, std::int64_t done, std::int64_t total) {
-        printer.heard(std::string(phase) + " " + std::to_string(done) + " " + std::to_string(total));
+        printer.progressed(std::string(phase) + " " + std::to_string(done) + " " + std::to_string(total));
     };
     const bench::ExportResult result =
         bench::exportVolumes(run.spec, options.out, bench::commandLine(), progress, [] { return interrupted(); });

@@ -114,8 +114,8 @@ std::string claimsText(const MachineComparison& comparison) {
     std::vector<std::vector<std::string>> rows{heads({"paper", "id"}, comparison.set.labels, {"machines", "claim"})};
     for (const bench::SharedClaim& claim : comparison.claims) {
         rows.push_back({claim.any().paper, claim.any().claim.id});
-        for (const bench::JudgedClaim* judged : claim.folders)
-            rows.back().push_back(judged ? verdictText(*judged) : "–");
+        for (const bench::EvaluatedClaim* evaluated : claim.folders)
+            rows.back().push_back(evaluated ? verdictText(*evaluated) : "–");
         rows.back().emplace_back(agreementText(claim.agreement));
         rows.back().push_back(shortened(claim.any().claim.text));
     }

@@ -182,7 +182,7 @@ class MachineMeasurement {
     }
 
     bool execute(const bench::PlannedRun& run, const bench::LadderCell& cell, bool again, bool& isNew) {
-        const double allowed = limits_.runSeconds + (run.spec.judging ? limits_.judgingSeconds : 0);
+        const double allowed = limits_.runSeconds + (run.spec.metricPlan ? limits_.metricSeconds : 0);
         execution_.timeoutSeconds = 2 * allowed;
         execution_.force = again;
         progress_.place(position_, cells_.size());

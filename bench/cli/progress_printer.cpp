@@ -40,7 +40,7 @@ void ProgressPrinter::started(std::size_t position, std::size_t total, const ben
     lastShown_ = phaseStart_ = std::chrono::steady_clock::now();
 }
 
-void ProgressPrinter::heard(std::string_view line) {
+void ProgressPrinter::progressed(std::string_view line) {
     if (!showsSteps_) return;
     const auto now = std::chrono::steady_clock::now();
     if (!line.empty()) {

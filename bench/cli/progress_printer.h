@@ -15,7 +15,7 @@ class ProgressPrinter : public bench::ExecutionListener {
 
     void started(std::size_t position, std::size_t total, const bench::PlannedRun& run, int repetitions,
                  double etaSeconds) override;
-    void heard(std::string_view line) override;
+    void progressed(std::string_view line) override;
     void ended(const bench::PlannedRun& run, bench::RunStatus status, const std::string& reason) override;
     /// Call before printing anything else.
     void eraseBar();

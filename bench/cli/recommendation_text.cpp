@@ -162,7 +162,7 @@ std::string wayOfMeasuring(const Ranking& ranking) {
     return fmt::format(
         "timed with sync={} threads={} over {} frames, compared over {} frames with {}",
         valueOf(ranking.conduct, "sync"), valueOf(ranking.conduct, "threads"), valueOf(ranking.conduct, "frames"),
-        ranking.judgedFrames,
+        ranking.evaluatedFrames,
         ranking.reference.empty() || ranking.reference == "exact" ? "the ground truth" : ranking.reference);
 }
 
@@ -230,17 +230,17 @@ std::string leftOutText(const bench::MeasuredRuns& runs) {
 }
 
 std::string incompleteText(const bench::Rankings& rankings) {
-    std::vector<const bench::Incomplete*> timed, judged, both;
+    std::vector<const bench::Incomplete*> timed, evaluated, both;
     std::size_t neither = 0;
     for (const bench::Incomplete& setting : rankings.incomplete) {
         if (setting.hasTime && setting.hasQuality) both.push_back(&setting);
         if (setting.hasTime && !setting.hasQuality) timed.push_back(&setting);
-        if (!setting.hasTime && setting.hasQuality) judged.push_back(&setting);
+        if (!setting.hasTime && setting.hasQuality) evaluated.push_back(&setting);
         neither += setting.hasTime || setting.hasQuality ? 0 : 1;
     }
     std::string text =
         namesOfSettings(timed, fmt::format("not ranked: a time but no {}", rankings.quality.column)) +
-        namesOfSettings(judged, fmt::format("not ranked: {} but no time of the method", rankings.quality.column)) +
+        namesOfSettings(evaluated, fmt::format("not ranked: {} but no time of the method", rankings.quality.column)) +
         namesOfSettings(both,
                         "not ranked: compared over different frames or with a different reference from the others");
     if (neither > 0)

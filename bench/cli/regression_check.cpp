@@ -44,15 +44,15 @@ void writeCsv(const std::string& folder, const std::string& text) {
     std::cout << file.string() << "\n";
 }
 
-std::string takes(const bench::JudgedCell& judged) {
-    return fmt::format("takes {:.4g} [{:.4g}, {:.4g}] times as long in B", judged.result.ratio, judged.result.low,
-                       judged.result.high);
+std::string takes(const bench::EvaluatedCell& evaluated) {
+    return fmt::format("takes {:.4g} [{:.4g}, {:.4g}] times as long in B", evaluated.result.ratio, evaluated.result.low,
+                       evaluated.result.high);
 }
 
 std::vector<Alert> alertsOf(const bench::FolderComparison& comparison, double percent) {
     std::vector<Alert> alerts;
-    for (const bench::JudgedCell& judged : comparison.judged)
-        if (bench::isSlowerBy(judged, percent)) alerts.push_back({judged.cell, judged.column});
+    for (const bench::EvaluatedCell& evaluated : comparison.evaluated)
+        if (bench::isSlowerBy(evaluated, percent)) alerts.push_back({evaluated.cell, evaluated.column});
     return alerts;
 }
 
@@ -61,10 +61,10 @@ std::vector<Alert> confirmed(const bench::FolderComparison& comparison, const st
                              const SecondLook& second) {
     std::vector<Alert> standing;
     for (const Alert& alert : alerts) {
-        const auto first = std::ranges::find_if(comparison.judged, [&](const bench::JudgedCell& judged) {
-            return judged.cell == alert.cell && judged.column == alert.column;
+        const auto first = std::ranges::find_if(comparison.evaluated, [&](const bench::EvaluatedCell& evaluated) {
+            return evaluated.cell == alert.cell && evaluated.column == alert.column;
         });
-        const bench::JudgedCell* again = second.whyNot().empty() ? second.judged(alert) : nullptr;
+        const bench::EvaluatedCell* again = second.whyNot().empty() ? second.evaluated(alert) : nullptr;
         const bool stands = !second.whyNot().empty() || second.confirms(alert);
         if (stands) standing.push_back(alert);
         std::cerr << fmt::format("{}: {}: {} {}{}\n", stands ? "regression" : "not confirmed", alert.column,
@@ -83,12 +83,13 @@ void sayBroken(const bench::FolderComparison& comparison) {
 void writeMarkdown(const RegressionOptions& options, const bench::FolderComparison& comparison,
                    const std::vector<Alert>& regressions) {
     if (options.markdown.empty()) return;
-    bench::writeWhole(options.markdown,
-                      bench::comparisonMarkdown(comparison, options.a, options.b, [&](const bench::JudgedCell& judged) {
-                          return std::ranges::any_of(regressions, [&](const Alert& alert) {
-                              return alert.cell == judged.cell && alert.column == judged.column;
-                          });
-                      }));
+    bench::writeWhole(
+        options.markdown,
+        bench::comparisonMarkdown(comparison, options.a, options.b, [&](const bench::EvaluatedCell& evaluated) {
+            return std::ranges::any_of(regressions, [&](const Alert& alert) {
+                return alert.cell == evaluated.cell && alert.column == evaluated.column;
+            });
+        }));
     std::cout << options.markdown << "\n";
 }
 
@@ -150,7 +151,8 @@ int checkRegression(const RegressionOptions& options) {
     sayBroken(comparison);
     if (!regressions.empty() || !comparison.broken.empty()) return exitRegression;
     // If no regression can be detected, the check must not pass.
-    if (std::ranges::none_of(comparison.judged, [](const auto& judged) { return judged.result.hasEnough(); })) {
+    if (std::ranges::none_of(comparison.evaluated,
+                             [](const auto& evaluated) { return evaluated.result.hasEnough(); })) {
         std::cerr << fmt::format(
             "not comparable: no configuration has {} timed runs in both folders, so no regression can be detected\n",
             bench::minimumTimes);

@@ -167,7 +167,7 @@ int reproducePaper(const PaperWork& work, std::vector<bench::PaperLine>& index) 
     const auto summary = files::CsvTable::parseFile(results.path() / "summary.csv");
     if (const std::string numbers = publishedReport(bench::tabulatePrinted(paper.id, summary)); !numbers.empty())
         std::cout << "\n" << numbers;
-    const auto claims = bench::judgeClaims(paper.id, summary, findings);
+    const auto claims = bench::evaluateClaims(paper.id, summary, findings);
     bench::writeWhole(results.path() / "claims.csv", bench::claimsCsv(claims));
     std::cout << "\n" << claimsReport(claims);
     for (const char* file : {"summary.csv", "experiments.csv", "claims.csv"})

@@ -38,7 +38,7 @@ bench::RunSpec toSpec(const RunOptions& options) {
     spec.sync = bench::syncs.parse("sync", options.sync);
     spec.imagesEvery = options.films.wanted() ? std::max<std::int64_t>(options.images, 1) : options.images;
     spec.volumes = options.volumes.over({});
-    if (options.metrics) spec.judging.emplace();
+    if (options.metrics) spec.metricPlan.emplace();
     bench::requireFramesWithinRun(spec);
     return spec;
 }

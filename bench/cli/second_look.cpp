@@ -65,18 +65,18 @@ SecondLook::SecondLook(const bench::ResultsSide& a, const bench::FolderCompariso
     if (!comparison_.obstacles.empty()) whyNot_ = comparison_.obstacles.front();
 }
 
-const bench::JudgedCell* SecondLook::judged(const Alert& alert) const {
-    for (const bench::JudgedCell& judged : comparison_.judged) {
+const bench::EvaluatedCell* SecondLook::evaluated(const Alert& alert) const {
+    for (const bench::EvaluatedCell& evaluated : comparison_.evaluated) {
         const bool isIt = alert.cell == nullptr
-                              ? judged.cell == nullptr
-                              : judged.cell != nullptr && judged.cell->identity == alert.cell->identity;
-        if (isIt && judged.column == alert.column) return &judged;
+                              ? evaluated.cell == nullptr
+                              : evaluated.cell != nullptr && evaluated.cell->identity == alert.cell->identity;
+        if (isIt && evaluated.column == alert.column) return &evaluated;
     }
     return nullptr;
 }
 
 bool SecondLook::confirms(const Alert& alert) const {
-    const bench::JudgedCell* again = judged(alert);
+    const bench::EvaluatedCell* again = evaluated(alert);
     return again == nullptr || !again->result.hasEnough() || bench::isSlowerBy(*again, percent_);
 }
 

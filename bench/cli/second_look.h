@@ -28,7 +28,7 @@ class SecondLook {
     [[nodiscard]] const std::string& whyNot() const { return whyNot_; }
     [[nodiscard]] bool aborted() const { return aborted_; }
     /// The alert's result in the second measurement; null if there is none.
-    [[nodiscard]] const bench::JudgedCell* judged(const Alert& alert) const;
+    [[nodiscard]] const bench::EvaluatedCell* evaluated(const Alert& alert) const;
     /// True if the second measurement alerts again or could not decide.
     [[nodiscard]] bool confirms(const Alert& alert) const;
 

@@ -78,7 +78,7 @@ std::string publishedReport(bench::TextRows table) {
     return table.rows.empty() ? "" : "published numbers and ours\n" + textOf(std::move(table));
 }
 
-std::string claimsReport(const std::vector<bench::JudgedClaim>& claims) {
+std::string claimsReport(const std::vector<bench::EvaluatedClaim>& claims) {
     if (claims.empty()) return "";
     return "claims\n" + textOf(bench::tabulate(claims));
 }

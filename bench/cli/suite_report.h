@@ -16,6 +16,6 @@ namespace dustbench::cli {
 [[nodiscard]] std::string runsReport(const std::string& title, const std::vector<bench::MeasuredCell>& cells);
 /// Empty if the table has no rows.
 [[nodiscard]] std::string publishedReport(bench::TextRows table);
-[[nodiscard]] std::string claimsReport(const std::vector<bench::JudgedClaim>& claims);
+[[nodiscard]] std::string claimsReport(const std::vector<bench::EvaluatedClaim>& claims);
 
 }  // namespace dustbench::cli

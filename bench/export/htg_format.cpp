@@ -131,7 +131,7 @@ void writeHtg(const CollectedOctree& octree, double timeSeconds, const std::file
     WholeFile whole(file);
     vtkNew<vtkXMLHyperTreeGridWriter> writer;
     // Not appended: VTK 9.1 would write every cell array except the last over the beginning of the file.
-    writeVtk(*writer, *grid, whole.beside(), Numbers::within);
+    writeVtk(*writer, *grid, whole.temporaryPath(), Numbers::within);
     whole.publish();
 }
 

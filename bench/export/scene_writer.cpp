@@ -177,13 +177,13 @@ void writeScene(const scene::Scene& scene, const scene::SceneState& state, const
     // VTK writes the pieces to a folder next to the file, with the file's name.
     WholeFile elsewhere(file);
     std::error_code error;
-    fs::remove_all(elsewhere.beside(), error);
-    fs::create_directory(elsewhere.beside(), error);
+    fs::remove_all(elsewhere.temporaryPath(), error);
+    fs::create_directory(elsewhere.temporaryPath(), error);
     if (error) files::failWriting(file, error.value());
     vtkNew<vtkXMLMultiBlockDataWriter> writer;
-    writeVtk(*writer, *blocks, elsewhere.beside() / file.filename());
-    const std::string names = keepPieces(elsewhere.beside(), file);
-    fs::remove_all(elsewhere.beside(), error);
+    writeVtk(*writer, *blocks, elsewhere.temporaryPath() / file.filename());
+    const std::string names = keepPieces(elsewhere.temporaryPath(), file);
+    fs::remove_all(elsewhere.temporaryPath(), error);
     writeWhole(file, names);
 }
 

@@ -64,7 +64,7 @@ void writeSurface(const CollectedSurface& surface, double timeSeconds, const std
 
     WholeFile whole(file);
     vtkNew<vtkXMLPolyDataWriter> writer;
-    writeVtk(*writer, *mesh, whole.beside());
+    writeVtk(*writer, *mesh, whole.temporaryPath());
     whole.publish();
 }
 

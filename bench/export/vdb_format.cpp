@@ -79,7 +79,7 @@ void describe(openvdb::GridBase& grid, const std::string& name, const std::strin
 void writeWholeVdb(const openvdb::GridPtrVec& grids, const std::filesystem::path& file) {
     WholeFile whole(file);
     try {
-        File().write(whole.beside(), grids);
+        File().write(whole.temporaryPath(), grids);
     } catch (const openvdb::Exception& error) {
         throw cannotWrite(file, error.what());
     }

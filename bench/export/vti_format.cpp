@@ -24,7 +24,7 @@ void setPlace(vtkImageData& image, const glm::dvec3& origin, double spacing, con
 void writeImage(vtkImageData& image, const std::filesystem::path& file) {
     WholeFile whole(file);
     vtkNew<vtkXMLImageDataWriter> writer;
-    writeVtk(*writer, image, whole.beside());
+    writeVtk(*writer, image, whole.temporaryPath());
     whole.publish();
 }
 

@@ -95,7 +95,7 @@ void writeVtp(const Puffs& dust, double timeSeconds, const std::filesystem::path
 
     WholeFile whole(file);
     vtkNew<vtkXMLPolyDataWriter> writer;
-    writeVtk(*writer, *cloud, whole.beside());
+    writeVtk(*writer, *cloud, whole.temporaryPath());
     whole.publish();
 }
 

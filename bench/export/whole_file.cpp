@@ -43,17 +43,17 @@ InputError cannotWrite(const fs::path& path, std::string_view reason) {
 
 WholeFile::WholeFile(fs::path place)
     : place_(std::move(place)),
-      beside_(place_.parent_path() / fmt::format(".{}{}", place_.filename().string(), ending)) {}
+      temporaryPath_(place_.parent_path() / fmt::format(".{}{}", place_.filename().string(), ending)) {}
 
 WholeFile::~WholeFile() {
     std::error_code error;
-    fs::remove_all(beside_, error);
+    fs::remove_all(temporaryPath_, error);
 }
 
 void WholeFile::publish() {
-    putOnDisk(beside_);
+    putOnDisk(temporaryPath_);
     std::error_code error;
-    fs::rename(beside_, place_, error);
+    fs::rename(temporaryPath_, place_, error);
     if (error) files::failWriting(place_, error.value());
     putNameOnDisk(place_);
 }
@@ -62,7 +62,7 @@ void writeWhole(const fs::path& file, std::string_view content) {
     WholeFile whole(file);
     {
         errno = 0;
-        std::ofstream stream(whole.beside(), std::ios::binary | std::ios::trunc);
+        std::ofstream stream(whole.temporaryPath(), std::ios::binary | std::ios::trunc);
         stream.write(content.data(), static_cast<std::streamsize>(content.size()));
         stream.close();
         if (!stream) files::failWriting(file, errno);

@@ -18,14 +18,14 @@ class WholeFile {
     WholeFile& operator=(const WholeFile&) = delete;
 
     /// The hidden name to write to.
-    [[nodiscard]] const std::filesystem::path& beside() const { return beside_; }
+    [[nodiscard]] const std::filesystem::path& temporaryPath() const { return temporaryPath_; }
     [[nodiscard]] const std::filesystem::path& place() const { return place_; }
     /// Moves it to its final place. Throws as files::failWriting.
     void publish();
 
  private:
     std::filesystem::path place_;
-    std::filesystem::path beside_;
+    std::filesystem::path temporaryPath_;
 };
 
 /// Waits until a file, or a folder with all that is in it, is on disk (fsync). Throws as files::failWriting.

@@ -49,11 +49,11 @@ TEST(WholeFile, AppearsOnlyWhenPublished) {
     const fs::path place = folder.path() / "f.vti";
     {
         WholeFile file(place);
-        std::ofstream(file.beside()) << "half";
+        std::ofstream(file.temporaryPath()) << "half";
         EXPECT_FALSE(fs::exists(place));
-        EXPECT_TRUE(file.beside().filename().string().starts_with('.'));
-        EXPECT_EQ(file.beside().parent_path(), place.parent_path());  // a rename within one file system
-        std::ofstream(file.beside(), std::ios::app) << "and half";
+        EXPECT_TRUE(file.temporaryPath().filename().string().starts_with('.'));
+        EXPECT_EQ(file.temporaryPath().parent_path(), place.parent_path());  // a rename within one file system
+        std::ofstream(file.temporaryPath(), std::ios::app) << "and half";
         file.publish();
     }
     EXPECT_EQ(contentOf(place), "halfand half");
@@ -66,7 +66,7 @@ TEST(WholeFile, AWriterThatThrowsMidwayLeavesTheOldFileAlone) {
     EXPECT_THROW(
         {
             const WholeFile file(place);
-            std::ofstream(file.beside()) << "half of the new";
+            std::ofstream(file.temporaryPath()) << "half of the new";
             throw std::runtime_error("no more");
         },
         std::runtime_error);
@@ -79,8 +79,8 @@ TEST(WholeFile, WhatAKilledProgramLeftIsRemovedAndNothingElse) {
     folder.write("f.vti", "x");
     folder.write(".hidden", "x");
     folder.write(".other.new", "x");
-    std::ofstream(WholeFile(folder.path() / "g.vti").beside()) << "half";
-    fs::create_directories(WholeFile(folder.path() / "g.vtm").beside() / "g");
+    std::ofstream(WholeFile(folder.path() / "g.vti").temporaryPath()) << "half";
+    fs::create_directories(WholeFile(folder.path() / "g.vtm").temporaryPath() / "g");
     removeUnfinished(folder.path());
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder.path())) names.push_back(entry.path().filename());

@@ -24,7 +24,7 @@ std::string_view verdictName(Verdict verdict) {
     return verdicts.wordOf(verdict);
 }
 
-Verdict judgeInterval(double lowLog, double highLog) {
+Verdict evaluateInterval(double lowLog, double highLog) {
     const double margin = std::log1p(sameMargin);
     if (highLog < -margin) return Verdict::faster;
     if (lowLog > margin) return Verdict::slower;
@@ -35,7 +35,7 @@ double studentQuantile(double p, double degreesOfFreedom) {
     return boost::math::quantile(boost::math::students_t(degreesOfFreedom), p);
 }
 
-PairedRatio judgeLogRatios(std::span<const double> logRatios) {
+PairedRatio evaluateLogRatios(std::span<const double> logRatios) {
     PairedRatio result;
     result.pairs = logRatios.size();
     if (logRatios.empty()) return result;
@@ -50,7 +50,7 @@ PairedRatio judgeLogRatios(std::span<const double> logRatios) {
     const double half = studentQuantile((1 + intervalConfidence) / 2, n - 1) * standardError;
     result.low = std::exp(mean - half);
     result.high = std::exp(mean + half);
-    if (result.pairs >= minimumPairs) result.verdict = judgeInterval(mean - half, mean + half);
+    if (result.pairs >= minimumPairs) result.verdict = evaluateInterval(mean - half, mean + half);
     return result;
 }
 
@@ -66,7 +66,7 @@ PairedRatio comparePaired(std::span<const double> of, std::span<const double> wi
         // Not the logarithm of the quotient, which can overflow.
         logRatios.push_back(std::log(of[i]) - std::log(with[i]));
     }
-    return judgeLogRatios(logRatios);
+    return evaluateLogRatios(logRatios);
 }
 
 }  // namespace dustbench::bench

@@ -44,10 +44,10 @@ struct PairedRatio {
 [[nodiscard]] PairedRatio comparePaired(std::span<const double> of, std::span<const double> with);
 
 /// The same, given ln(of / with) of each pair.
-[[nodiscard]] PairedRatio judgeLogRatios(std::span<const double> logRatios);
+[[nodiscard]] PairedRatio evaluateLogRatios(std::span<const double> logRatios);
 
 /// Verdict from the logarithms of an interval's ends and the margin, as above. Does not check the number of pairs.
-[[nodiscard]] Verdict judgeInterval(double lowLog, double highLog);
+[[nodiscard]] Verdict evaluateInterval(double lowLog, double highLog);
 
 /// The p-quantile (0 < p < 1) of Student's t distribution.
 [[nodiscard]] double studentQuantile(double p, double degreesOfFreedom);

@@ -91,7 +91,7 @@ TEST(PairedRatio, TheVerdictFollowsFromIntervalAndMargin) {
         // Six logarithms whose interval has exactly these ends: mean ± h, three of each, so that s/√6 = h/√5.
         const double mean = (std::log(low) + std::log(high)) / 2;
         const double h = (std::log(high) - std::log(low)) / 2 * std::sqrt(5.0) / studentQuantile(0.975, 5);
-        return judgeLogRatios(std::vector{mean - h, mean + h, mean - h, mean + h, mean - h, mean + h}).verdict;
+        return evaluateLogRatios(std::vector{mean - h, mean + h, mean - h, mean + h, mean - h, mean + h}).verdict;
     };
     EXPECT_EQ(verdictOf(0.90, 0.979), Verdict::faster);
     EXPECT_EQ(verdictOf(0.90, 0.982), Verdict::unresolved);
@@ -154,9 +154,9 @@ TEST(PairedRatio, NeitherTheUnitNorADriftThatHitsBothMatters) {
 
 TEST(PairedRatio, TheIntervalHoldsTheTruthInNineteenOfTwenty) {
     for (const std::size_t pairs : {std::size_t{2}, std::size_t{6}, std::size_t{12}}) {
-        const double truth = 0.8;
-        const int held = countExperiments(pairs, truth, 0.1, [truth](const PairedRatio& result) {
-            return result.low <= truth && truth <= result.high;
+        const double trueRatio = 0.8;
+        const int held = countExperiments(pairs, trueRatio, 0.1, [trueRatio](const PairedRatio& result) {
+            return result.low <= trueRatio && trueRatio <= result.high;
         });
         // Three standard deviations of a binomial count of 2000 with p = 0.95 are 29.
         EXPECT_NEAR(held, 0.95 * pairedExperiments, 29) << pairs << " pairs";

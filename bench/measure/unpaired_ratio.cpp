@@ -36,7 +36,7 @@ UnpairedRatio compareUnpairedLogs(std::span<const double> ofLogs, std::span<cons
     const double half = studentQuantile((1 + intervalConfidence) / 2, result.degreesOfFreedom) * std::sqrt(a + b);
     result.low = std::exp(x - y - half);
     result.high = std::exp(x - y + half);
-    if (result.hasEnough()) result.verdict = judgeInterval(x - y - half, x - y + half);
+    if (result.hasEnough()) result.verdict = evaluateInterval(x - y - half, x - y + half);
     return result;
 }
 

@@ -67,11 +67,11 @@ TEST(UnpairedRatio, TheOrderOfTheTimesDoesNotMatter) {
 }
 
 TEST(UnpairedRatio, TheIntervalHoldsTheTruthInNineteenOfTwenty) {
-    const double truth = std::log(1.05);
+    const double trueRatio = std::log(1.05);
     for (const Design& design : {Design{6, 6, 0.03, 0.03}, Design{6, 6, 0.03, 0.12}, Design{6, 6, 0.001, 0.1},
                                  Design{6, 20, 0.1, 0.02}, Design{20, 6, 0.1, 0.02}, Design{40, 10, 0.05, 0.05}}) {
-        const double held = shareOfExperiments(design, truth, [truth](const UnpairedRatio& result) {
-            return std::log(result.low) <= truth && truth <= std::log(result.high);
+        const double held = shareOfExperiments(design, trueRatio, [trueRatio](const UnpairedRatio& result) {
+            return std::log(result.low) <= trueRatio && trueRatio <= std::log(result.high);
         });
         // Welch's interval is an approximation: its coverage is within 0.5 % of 95 % for six times or more, and three
         // standard deviations of a share of 10,000 are 0.65 %.

@@ -23,7 +23,7 @@ using Judging = std::pair<std::string, std::string>;
 /// All runs of a setting in one world.
 struct SettingRuns {
     std::map<SettingTexts, RunList> timed;  ///< by how they were timed
-    std::map<Judging, RunList> judged;
+    std::map<Judging, RunList> evaluated;
     bool isRanked = false;
 };
 using SettingKey = std::pair<std::string, SettingTexts>;
@@ -36,7 +36,7 @@ std::map<WorldKey, WorldRuns> sortRuns(const MeasuredRuns& runs, const Metric& q
         SettingRuns& setting = worlds[{run.machine, run.world}][{run.method, run.own}];
         if (run.numbers.contains(timeColumn)) setting.timed[run.conduct].push_back(&run);
         if (run.numbers.contains(quality.column))
-            setting.judged[{run.reference, run.conduct.at("frames")}].push_back(&run);
+            setting.evaluated[{run.reference, run.conduct.at("frames")}].push_back(&run);
     }
     return worlds;
 }
@@ -74,9 +74,9 @@ void setTime(MeasuredSetting& setting, const RunList& timed) {
 }
 
 /// Pictures do not depend on the repetition, so values are taken per seed.
-void setMetrics(MeasuredSetting& setting, const RunList& judged, const Metric& quality) {
+void setMetrics(MeasuredSetting& setting, const RunList& evaluated, const Metric& quality) {
     const auto add = [&](std::string_view column) {
-        if (const auto bySeed = valuesBySeed(judged, column); !bySeed.empty())
+        if (const auto bySeed = valuesBySeed(evaluated, column); !bySeed.empty())
             setting.metrics.emplace(column, overSeeds(bySeed));
     };
     for (const Metric& metric : metrics())
@@ -84,7 +84,7 @@ void setMetrics(MeasuredSetting& setting, const RunList& judged, const Metric& q
     add("flip");
     setting.quality = setting.metrics.at(std::string(quality.column));
     setting.otherRuns =
-        std::ranges::any_of(judged, [](const MeasuredRun* run) { return !run->numbers.contains(timeColumn); });
+        std::ranges::any_of(evaluated, [](const MeasuredRun* run) { return !run->numbers.contains(timeColumn); });
 }
 
 /// The length of the runs whose metrics a ranking uses: the one that most settings have, then with most seeds, then the
@@ -93,10 +93,10 @@ std::string commonFrames(const WorldRuns& world, const SettingTexts& conduct, co
     std::map<std::string, std::pair<std::size_t, std::size_t>> found;  // settings and runs, by frames
     for (const auto& [key, setting] : world)
         if (setting.timed.contains(conduct))
-            for (const auto& [judging, runs] : setting.judged)
-                if (judging.first == reference) {
-                    ++found[judging.second].first;
-                    found[judging.second].second += valuesBySeed(runs, "flip").size();
+            for (const auto& [metricPlan, runs] : setting.evaluated)
+                if (metricPlan.first == reference) {
+                    ++found[metricPlan.second].first;
+                    found[metricPlan.second].second += valuesBySeed(runs, "flip").size();
                 }
     const auto rank = [](const auto& entry) {
         return std::tuple(entry.second, files::numberOf(entry.first).value_or(0));
@@ -122,16 +122,16 @@ Ranking rankWorld(const WorldKey& key, WorldRuns& world, const SettingTexts& con
                   const Metric& quality) {
     Ranking ranking{.world = key.second,
                     .conduct = conduct,
-                    .judgedFrames = commonFrames(world, conduct, reference),
+                    .evaluatedFrames = commonFrames(world, conduct, reference),
                     .reference = reference,
                     .machine = key.first};
     for (auto& [settingKey, runs] : world) {
         const auto timed = runs.timed.find(conduct);
-        const auto judged = runs.judged.find({reference, ranking.judgedFrames});
-        if (timed == runs.timed.end() || judged == runs.judged.end()) continue;
+        const auto evaluated = runs.evaluated.find({reference, ranking.evaluatedFrames});
+        if (timed == runs.timed.end() || evaluated == runs.evaluated.end()) continue;
         MeasuredSetting setting{.method = settingKey.first, .own = settingKey.second};
         setTime(setting, timed->second);
-        setMetrics(setting, judged->second, quality);
+        setMetrics(setting, evaluated->second, quality);
         ranking.settings.push_back(std::move(setting));
         runs.isRanked = true;
     }
@@ -145,7 +145,7 @@ std::vector<Ranking> rankWorld(const WorldKey& key, WorldRuns& world, const Metr
     std::set<std::string> references;
     for (const auto& [settingKey, runs] : world) {
         for (const auto& [conduct, list] : runs.timed) conducts.insert(conduct);
-        for (const auto& [judging, list] : runs.judged) references.insert(judging.first);
+        for (const auto& [metricPlan, list] : runs.evaluated) references.insert(metricPlan.first);
     }
     std::vector<Ranking> rankings;
     for (const SettingTexts& conduct : conducts)
@@ -173,8 +173,8 @@ bool isDefault(const ParameterSet* declared, const std::string& name, const std:
 }
 
 /// `name=value` of settings that vary or differ from the default.
-std::vector<std::string> toldOf(const SettingTexts& settings, const std::set<std::string>& varies,
-                                const ParameterSet* declared) {
+std::vector<std::string> distinctSettings(const SettingTexts& settings, const std::set<std::string>& varies,
+                                          const ParameterSet* declared) {
     std::vector<std::string> words;
     for (const auto& [name, value] : settings)
         if (varies.contains(name) || !isDefault(declared, name, value)) words.push_back(name + "=" + value);
@@ -184,7 +184,7 @@ std::vector<std::string> toldOf(const SettingTexts& settings, const std::set<std
 std::string ownLabel(const SettingKey& key, const std::set<std::string>& varies) {
     const auto method = std::ranges::find(methods(), key.first, &MethodInfo::id);
     std::vector<std::string> words =
-        toldOf(key.second, varies, method == methods().end() ? nullptr : &method->parameters);
+        distinctSettings(key.second, varies, method == methods().end() ? nullptr : &method->parameters);
     words.insert(words.begin(), key.first);
     return fmt::format("{}", fmt::join(words, " "));
 }
@@ -196,7 +196,7 @@ std::string worldLabel(const SettingTexts& world, const std::set<std::string>& v
         words.push_back(fmt::format("{}={}", first, world.at(first)));
         rest.erase(first);
     }
-    std::ranges::move(toldOf(rest, varies, &worldParameters()), std::back_inserter(words));
+    std::ranges::move(distinctSettings(rest, varies, &worldParameters()), std::back_inserter(words));
     return fmt::format("{}", fmt::join(words, " "));
 }
 
@@ -269,7 +269,7 @@ Rankings rankSettings(const MeasuredRuns& runs, const Metric& quality) {
         for (const auto& [settingKey, setting] : world)
             if (!setting.isRanked)
                 result.incomplete.push_back({ownLabel(settingKey, {}), worldLabel(key.second, {}),
-                                             !setting.timed.empty(), !setting.judged.empty()});
+                                             !setting.timed.empty(), !setting.evaluated.empty()});
     return result;
 }
 

@@ -40,9 +40,9 @@ struct MeasuredSetting {
 
 struct Ranking {
     SettingTexts world, conduct;
-    std::string label{};       ///< `scene=plain drive=straight size=320x240 particles=500`
-    std::string judgedFrames;  ///< length of the runs with metrics
-    std::string reference;     ///< `exact`, or a finer setting
+    std::string label{};          ///< `scene=plain drive=straight size=320x240 particles=500`
+    std::string evaluatedFrames;  ///< length of the runs with metrics
+    std::string reference;        ///< `exact`, or a finer setting
     std::size_t machine = 0;
     std::vector<MeasuredSetting> settings{};  ///< best picture first
 };

@@ -74,7 +74,7 @@ TEST(Rankings, JoinTimesAndPicturesOfOtherRuns) {
     EXPECT_EQ(setting.quality.median, 32);
     EXPECT_EQ(setting.quality.values, 3U);
     EXPECT_TRUE(setting.otherRuns);
-    EXPECT_EQ(rankings.rankings.front().judgedFrames, "90");
+    EXPECT_EQ(rankings.rankings.front().evaluatedFrames, "90");
 }
 
 TEST(Rankings, NameSettingsWithoutATimeOrAPicture) {

@@ -63,7 +63,7 @@ void fillCells(RunGroup& group, const std::vector<Drawn>& drawn, const Metric& q
         if (const auto flip = setting->metrics.find("flip"); flip != setting->metrics.end()) cell.values.insert(*flip);
         references.push_back(ranking->reference);
         machines.push_back(fmt::format("{}", ranking->machine + 1));
-        lengths.push_back(ranking->judgedFrames);
+        lengths.push_back(ranking->evaluatedFrames);
     }
     addWorldAxis(group, "reference", references);
     addWorldAxis(group, "machine", machines);

@@ -40,7 +40,7 @@ ordered_json rankingJson(const Ranking& ranking, const Recommendation& answer, d
     return {{"label", ranking.label},
             {"world", ranking.world},
             {"timed", ranking.conduct},
-            {"judged_frames", ranking.judgedFrames},
+            {"judged_frames", ranking.evaluatedFrames},
             {"reference", ranking.reference},
             {"machine", ranking.machine},
             {"recommended", answer.recommended ? ordered_json(*answer.recommended) : ordered_json(nullptr)},

@@ -88,11 +88,11 @@ std::optional<Selection> othersThan(const std::string& along, Selection cell) {
 std::vector<std::string> mapIds(const ReportData& data) {
     std::vector<std::string> ids;
     for (const Paper& paper : data.papers)
-        for (const JudgedClaim& judged : data.claims) {
-            const std::string& along = judged.claim.rule.along;
-            if (judged.paper != paper.id || along.empty()) continue;
+        for (const EvaluatedClaim& evaluated : data.claims) {
+            const std::string& along = evaluated.claim.rule.along;
+            if (evaluated.paper != paper.id || along.empty()) continue;
             std::set<std::optional<Selection>> others;
-            for (const ClaimCell& cell : judged.result.cells) others.insert(othersThan(along, cell.cell));
+            for (const ClaimCell& cell : evaluated.result.cells) others.insert(othersThan(along, cell.cell));
             const std::string id = fmt::format("{}-by-{}", paper.id, nameOf(along));
             if (others.size() > 1 && !others.contains(std::nullopt) && std::ranges::find(ids, id) == ids.end())
                 ids.push_back(id);
@@ -125,15 +125,16 @@ void drawChart(const ReportData& data, const std::string& id, const fs::path& fi
     if (error) files::failWriting(file.parent_path(), error.value());
 
     WholeFile script(file.string() + ".js"), svg(file.string() + ".svg"), drawn(file), log(file.string() + ".log");
-    writeWhole(script.beside(), fmt::format("{}\n{}\nconst reportColumns = {};\nconst reportCharts = {};\n"
-                                            "const reportData = {};\n{}",
-                                            vegaScript(), chartScript(), reportColumns(), chartSpecifications(),
-                                            reportJson(data), reportFile("chart_file.js")));
-    callDrawingProgram({"node", script.beside().string(), id, svg.beside().string()}, "nodejs", log.beside());
+    writeWhole(script.temporaryPath(), fmt::format("{}\n{}\nconst reportColumns = {};\nconst reportCharts = {};\n"
+                                                   "const reportData = {};\n{}",
+                                                   vegaScript(), chartScript(), reportColumns(), chartSpecifications(),
+                                                   reportJson(data), reportFile("chart_file.js")));
+    callDrawingProgram({"node", script.temporaryPath().string(), id, svg.temporaryPath().string()}, "nodejs",
+                       log.temporaryPath());
     if (format == "svg")
-        fs::rename(svg.beside(), drawn.beside());
+        fs::rename(svg.temporaryPath(), drawn.temporaryPath());
     else
-        convertSvg(svg.beside(), format, 2, drawn.beside(), log.beside());
+        convertSvg(svg.temporaryPath(), format, 2, drawn.temporaryPath(), log.temporaryPath());
     drawn.publish();
 }
 

@@ -65,8 +65,8 @@ json number(double value) {
     return rounded(value, 6);
 }
 
-json claimJson(const JudgedClaim& judged) {
-    const auto& [paper, claim, result] = judged;
+json claimJson(const EvaluatedClaim& evaluated) {
+    const auto& [paper, claim, result] = evaluated;
     const Rule& rule = claim.rule;
     return {{"id", claim.id},
             {"paper", paper},
@@ -77,7 +77,7 @@ json claimJson(const JudgedClaim& judged) {
                      : rule.over == Chance::none ? ""
                                                  : "repetitions"},
             {"verdict", verdictName(result.verdict)},
-            {"verdictText", verdictText(judged)},
+            {"verdictText", verdictText(evaluated)},
             {"control", controlName(result.control)},
             {"controls", controlsJson(claim, result)},
             {"measured", claimNumber(result.measured)},

@@ -12,7 +12,7 @@ namespace dustbench::bench {
 [[nodiscard]] nlohmann::json number(double value);
 
 /// A claim with its rule and its result, without its runs.
-[[nodiscard]] nlohmann::json claimJson(const JudgedClaim& judged);
+[[nodiscard]] nlohmann::json claimJson(const EvaluatedClaim& evaluated);
 
 /// As text inside a script element: contains no `<`. Invalid UTF-8 is replaced.
 [[nodiscard]] std::string scriptSafe(const nlohmann::json& root);

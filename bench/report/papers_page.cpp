@@ -60,7 +60,7 @@ PaperLine lineOf(const ReportData& data, const Paper& paper, const std::string& 
         data.groups, [](const RunGroup& group) { return !group.suite.empty() && group.id != group.suite; });
     line.form = quick ? "quick" : "full";
     for (const auto& machine : data.machines) line.machines.push_back(machineText(machine));
-    for (const JudgedClaim& claim : data.claims)
+    for (const EvaluatedClaim& claim : data.claims)
         if (claim.paper == paper.id) ++line.verdicts.at(static_cast<std::size_t>(claim.result.verdict));
     return line;
 }

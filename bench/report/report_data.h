@@ -129,7 +129,7 @@ struct ReportData {
     std::vector<Paper> papers;
     std::vector<std::string> files;  ///< raw files in the folder, relative to it
     std::vector<RunGroup> groups;
-    std::vector<JudgedClaim> claims;
+    std::vector<EvaluatedClaim> claims;
     std::vector<FrameTimes> frameTimes;
     std::size_t runsWithoutFrameTimes = 0;  ///< omitted, to keep the page small
     std::vector<PictureSet> pictureSets;

@@ -101,7 +101,7 @@ std::string vegaLicence() {
 std::string chartSpecifications(const std::vector<std::string>& folders) {
     std::vector<fs::path> specifications;
     for (const std::string& folder : folders)
-        for (const auto& entry : fs::directory_iterator(reportsFolder() / "report" / folder))
+        for (const auto& entry : fs::directory_iterator(reportsFolder() / "page" / folder))
             if (entry.path().extension() == ".json") specifications.push_back(entry.path());
     std::ranges::sort(specifications);
     std::string all;

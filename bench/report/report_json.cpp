@@ -185,7 +185,7 @@ std::string reportJson(const ReportData& data) {
             {"venue", paper.venue}, {"summary", paper.summary}, {"controls", paper.controls}};
     });
     root["experiments"] = each(data.groups, [&](const RunGroup& item) { return groupJson(item, index); });
-    root["claims"] = each(data.claims, [&](const JudgedClaim& item) {
+    root["claims"] = each(data.claims, [&](const EvaluatedClaim& item) {
         json claim = claimJson(item);
         claim["runs"] = indices(index, item.result.runs);
         return claim;

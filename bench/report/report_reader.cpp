@@ -206,19 +206,19 @@ void placePublished(const std::string& paper, ReportData& data) {
 
 /// The claims of a paper, from the runs: summary.csv may differ from them. Those about the device are judged for each
 /// machine by itself.
-std::vector<JudgedClaim> claimsOf(const std::string& paper, const fs::path& folder, const ReportData& data,
-                                  const MachineOfRun& machineOf) {
-    const auto judge = [&](const StoredRuns& runs) {
-        return judgeClaims(paper, files::CsvTable::parseText(summaryCsv(runs), (folder / "summary.csv").string()),
-                           readFindings(folder));
+std::vector<EvaluatedClaim> claimsOf(const std::string& paper, const fs::path& folder, const ReportData& data,
+                                     const MachineOfRun& machineOf) {
+    const auto evaluate = [&](const StoredRuns& runs) {
+        return evaluateClaims(paper, files::CsvTable::parseText(summaryCsv(runs), (folder / "summary.csv").string()),
+                              readFindings(folder));
     };
-    std::vector<JudgedClaim> claims = judge(data.runs);
+    std::vector<EvaluatedClaim> claims = evaluate(data.runs);
     if (data.machines.size() < 2) return claims;
     std::vector<std::vector<ClaimVerdict>> ofMachines(claims.size());
     for (std::size_t machine = 0; machine < data.machines.size(); ++machine) {
         StoredRuns runs = data.runs;
         std::erase_if(runs, [&](const auto& entry) { return machineOf.at(entry.first) != machine; });
-        const std::vector<JudgedClaim> own = judge(runs);
+        const std::vector<EvaluatedClaim> own = evaluate(runs);
         for (std::size_t i = 0; i < own.size(); ++i) ofMachines[i].push_back(own[i].result.verdict);
     }
     for (std::size_t i = 0; i < claims.size(); ++i) tellByMachine(claims[i], ofMachines[i]);

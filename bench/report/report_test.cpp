@@ -301,7 +301,7 @@ TEST(Report, ChartsOfASettingNeedMoreThanItsSeeds) {
 
 TEST(Report, AMapNeedsAClaimAlongANumberAndASecondSetting) {
     const auto claim = [](const std::string& along, const std::vector<Selection>& cells) {
-        JudgedClaim made;
+        EvaluatedClaim made;
         made.paper = "mud";
         made.claim.rule.along = along;
         for (const Selection& cell : cells) made.result.cells.emplace_back().cell = cell;
@@ -310,10 +310,10 @@ TEST(Report, AMapNeedsAClaimAlongANumberAndASecondSetting) {
     const auto cell = [](const char* edge, const char* speed) {
         return Selection{{"p.voxel_edge", edge}, {"p.speed", speed}};
     };
-    const auto idsOf = [](const JudgedClaim& judged) {
+    const auto idsOf = [](const EvaluatedClaim& evaluated) {
         ReportData data;
         data.papers.emplace_back().id = "mud";
-        data.claims = {judged, judged};
+        data.claims = {evaluated, evaluated};
         return chartIds(data);
     };
     EXPECT_EQ(idsOf(claim("p.voxel_edge", {cell("1", "5"), cell("1", "10"), cell("2", "5")})),
@@ -344,7 +344,7 @@ TEST(PapersPage, ListsEachPaperWithItsVerdicts) {
     for (const auto& [of, verdict] :
          {std::pair(&paper, ClaimVerdict::confirmed), std::pair(&paper, ClaimVerdict::notTested),
           std::pair(&paper, ClaimVerdict::confirmed), std::pair(&other, ClaimVerdict::refuted)}) {
-        JudgedClaim claim;
+        EvaluatedClaim claim;
         claim.paper = of->id;
         claim.result.verdict = verdict;
         data.claims.push_back(claim);

@@ -74,7 +74,7 @@ std::vector<Moment> readReferences(const ResultsFolder& results, const SheetRun&
     return moments;
 }
 
-void addJudged(const ResultsFolder& results, const SheetRun& run, std::vector<Moment>& moments) {
+void addEvaluated(const ResultsFolder& results, const SheetRun& run, std::vector<Moment>& moments) {
     const files::CsvTable metrics = metricsOfRun(results, run);
     std::size_t number = 0;
     for (const std::size_t row : rowsWithPicture(metrics)) {
@@ -116,7 +116,7 @@ ContactSheet momentsAsRows(std::span<const SheetRun> runs, const std::vector<Mom
     sheet.columns.emplace_back("exact");
     for (const SheetRun& run : runs) sheet.columns.push_back(run.label);
     for (const SheetRun& run : runs)
-        if (run.judged) sheet.columns.push_back("difference of " + run.label);
+        if (run.evaluated) sheet.columns.push_back("difference of " + run.label);
     for (const Moment& moment : moments) {
         sheet.rows.push_back(headingOf(moment));
         auto& cells = sheet.cells.emplace_back();
@@ -150,12 +150,13 @@ ContactSheet methodsAsRows(std::span<const SheetRun> runs, const std::vector<Mom
 }  // namespace
 
 ContactSheet sideBySideSheet(const ResultsFolder& results, std::span<const SheetRun> runs, const std::string& title) {
-    const auto firstJudged = std::ranges::find_if(runs, &SheetRun::judged);
-    if (firstJudged == runs.end()) throw std::invalid_argument("contact sheet: no run has metrics");
-    std::vector<Moment> moments = readReferences(results, *firstJudged);
-    for (const SheetRun& run : runs) run.judged ? addJudged(results, run, moments) : addAsItIs(results, run, moments);
+    const auto firstEvaluated = std::ranges::find_if(runs, &SheetRun::evaluated);
+    if (firstEvaluated == runs.end()) throw std::invalid_argument("contact sheet: no run has metrics");
+    std::vector<Moment> moments = readReferences(results, *firstEvaluated);
+    for (const SheetRun& run : runs)
+        run.evaluated ? addEvaluated(results, run, moments) : addAsItIs(results, run, moments);
     const std::size_t columns =
-        1 + runs.size() + static_cast<std::size_t>(std::ranges::count_if(runs, &SheetRun::judged));
+        1 + runs.size() + static_cast<std::size_t>(std::ranges::count_if(runs, &SheetRun::evaluated));
     ContactSheet sheet = columns > mostColumns && 2 * moments.size() < columns ? methodsAsRows(runs, moments)
                                                                                : momentsAsRows(runs, moments);
     sheet.title = title;
@@ -171,7 +172,7 @@ fs::path writeContactSheet(const ContactSheet& sheet, const fs::path& folder) {
 fs::path drawContactSheet(const fs::path& folder) {
     const fs::path file = folder / "contact_sheet.png";
     WholeFile drawn(file), log(file.string() + ".log");
-    convertSvg(folder / "contact_sheet.svg", "png", 1, drawn.beside(), log.beside());
+    convertSvg(folder / "contact_sheet.svg", "png", 1, drawn.temporaryPath(), log.temporaryPath());
     drawn.publish();
     return file;
 }

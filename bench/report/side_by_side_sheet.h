@@ -16,8 +16,8 @@ namespace dustbench::bench {
 
 struct SheetRun {
     std::string runId;
-    std::string label;   ///< heading of its pictures
-    bool judged = true;  ///< it has metrics against the reference images
+    std::string label;      ///< heading of its pictures
+    bool evaluated = true;  ///< it has metrics against the reference images
 };
 
 /// Reads the pictures of the runs in `results`. All runs must have the same world and moments, and at least one must

@@ -22,8 +22,8 @@ std::uint64_t maximumBytesOf(const RunSpec& spec) {
         const auto every = static_cast<std::uint64_t>(spec.imagesEvery);
         bytes += (frames + every - 1) / every * picture;
     }
-    if (spec.judging && spec.judging->keepsPictures) {
-        const auto moments = spec.judging->momentsOf(spec.frames).size();
+    if (spec.metricPlan && spec.metricPlan->keepsPictures) {
+        const auto moments = spec.metricPlan->momentsOf(spec.frames).size();
         bytes += moments * 3 * picture;  // the method's, the reference and the difference
     }
     if (spec.volumes) {

@@ -106,7 +106,7 @@ TEST_F(MethodTime, IsEmptyWithoutANullRunInTheSameWorld) {
 TEST_F(MethodTime, DoesNotDependOnWhatIsDoneBetweenFrames) {
     RunSpec method = specOf(other_);
     method.imagesEvery = 5;
-    method.judging.emplace();
+    method.metricPlan.emplace();
     method.volumes.emplace();
     store(method, "9");
     store(specOf(std::string(baselineMethod)), "5");

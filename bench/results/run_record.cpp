@@ -139,21 +139,21 @@ std::optional<VolumeSettings> readVolumes(const Json& json) {
     return volumes;
 }
 
-Json judgingObject(const std::optional<JudgingPlan>& judging) {
-    if (!judging) return nullptr;
-    return {{"frames", judging->moments ? Json(judging->moments->text()) : Json(nullptr)},
-            {"finer", judging->finer},
-            {"pictures", judging->keepsPictures}};
+Json metricPlanObject(const std::optional<MetricPlan>& metricPlan) {
+    if (!metricPlan) return nullptr;
+    return {{"frames", metricPlan->moments ? Json(metricPlan->moments->text()) : Json(nullptr)},
+            {"finer", metricPlan->finer},
+            {"pictures", metricPlan->keepsPictures}};
 }
 
-std::optional<JudgingPlan> readJudging(const Json& json) {
+std::optional<MetricPlan> readMetricPlan(const Json& json) {
     if (json.is_null()) return std::nullopt;
-    JudgingPlan judging;
+    MetricPlan metricPlan;
     if (!json.at("frames").is_null())
-        judging.moments = parseFrameRange("metrics", json.at("frames").get<std::string>());
-    for (const auto& [name, value] : json.at("finer").items()) judging.finer[name] = value.get<std::string>();
-    judging.keepsPictures = json.at("pictures").get<bool>();
-    return judging;
+        metricPlan.moments = parseFrameRange("metrics", json.at("frames").get<std::string>());
+    for (const auto& [name, value] : json.at("finer").items()) metricPlan.finer[name] = value.get<std::string>();
+    metricPlan.keepsPictures = json.at("pictures").get<bool>();
+    return metricPlan;
 }
 
 /// The specification, as specFromJson reads it.
@@ -176,7 +176,7 @@ Json specObject(const RunSpec& spec) {
             {"times", spec.timed},
             {"images", spec.imagesEvery},
             {"volumes", volumesObject(spec.volumes)},
-            {"metrics", judgingObject(spec.judging)},
+            {"metrics", metricPlanObject(spec.metricPlan)},
             {"parameters", spec.parameters}};
 }
 
@@ -268,7 +268,7 @@ RunSpec specFromJson(std::string_view text) {
         spec.timed = json.at("times").get<bool>();
         spec.imagesEvery = json.at("images").get<std::int64_t>();
         spec.volumes = readVolumes(json.at("volumes"));
-        spec.judging = readJudging(json.at("metrics"));
+        spec.metricPlan = readMetricPlan(json.at("metrics"));
         spec.repetition = json.at("repetition").get<int>();
         return spec;
     } catch (const nlohmann::json::exception& error) {

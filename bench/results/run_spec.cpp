@@ -96,7 +96,7 @@ void requireChangesWithinRun(const RunSpec& spec) {
 }
 
 void requireFramesWithinRun(const RunSpec& spec) {
-    if (spec.judging) requireMomentsWithinRun(*spec.judging, spec.frames);
+    if (spec.metricPlan) requireMomentsWithinRun(*spec.metricPlan, spec.frames);
     if (!spec.volumes || spec.volumes->frames.last < spec.frames) return;
     throw InputError(fmt::format("volumes: frame {} is beyond the run's end, allowed: frames 0..{} (--frames {})",
                                  spec.volumes->frames.last, spec.frames - 1, spec.frames));
@@ -128,10 +128,11 @@ std::string canonicalKey(const RunSpec& spec) {
                            volumes.region ? regionText(*volumes.region) : "");
         for (const auto& [id, word] : volumes.namedOptions()) key += fmt::format("{}={}\n", id, word);
     }
-    if (spec.judging)
+    if (spec.metricPlan)
         key += fmt::format("metrics={}\nmetric_reference={}\n",
-                           spec.judging->moments ? spec.judging->moments->text() : "", spec.judging->referenceText());
-    if (spec.judging && !spec.judging->keepsPictures) key += "metric_pictures=0\n";
+                           spec.metricPlan->moments ? spec.metricPlan->moments->text() : "",
+                           spec.metricPlan->referenceText());
+    if (spec.metricPlan && !spec.metricPlan->keepsPictures) key += "metric_pictures=0\n";
     return key;
 }
 

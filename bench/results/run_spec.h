@@ -53,7 +53,7 @@ struct RunSpec {
     Sync sync = Sync::frame;
     std::int64_t imagesEvery = 0;           ///< 0: no images
     std::optional<VolumeSettings> volumes;  ///< volume export; empty: none
-    std::optional<JudgingPlan> judging;     ///< frames that get metrics; empty: none
+    std::optional<MetricPlan> metricPlan;   ///< frames that get metrics; empty: none
     int repetition = 1;                     ///< counts from 1
     bool timed = true;                      ///< false: runs may overlap, and no times are kept
 };

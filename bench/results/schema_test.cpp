@@ -95,7 +95,7 @@ TEST(Schema, DefinesEveryColumnOfEveryTable) {
     const auto isMetric = [](const std::string& name) {
         return std::ranges::find(metrics(), name, &Metric::column) != metrics().end();
     };
-    Names ofFrames = headerOf(metricsCsv(Judgement()));
+    Names ofFrames = headerOf(metricsCsv(RunMetrics()));
     std::erase_if(ofFrames, [&](const std::string& name) { return isMetric(name) && name != "popping"; });
     expectDefined("metrics.csv", ofFrames);
     Names summary = columnsBeforeParameters();

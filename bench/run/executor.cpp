@@ -82,7 +82,7 @@ bool coolDown(const ExecutionOptions& options, ExecutionListener& listener) {
     const auto total = static_cast<std::int64_t>(options.cooldownSeconds * 10);
     for (std::int64_t done = 0; done < total; ++done) {
         if (options.interrupted && options.interrupted()) return false;
-        listener.heard(fmt::format("cooldown {} {}", done, total));
+        listener.progressed(fmt::format("cooldown {} {}", done, total));
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
     return true;
@@ -193,7 +193,7 @@ class RunInProgress {
         command.interrupted = options_.interrupted;
         command.onLine = [this, &listener](std::string_view line) {
             if (!line.empty()) progress_ = line;
-            listener.heard(line);
+            listener.progressed(line);
         };
         child_ = std::make_unique<ChildProcess>(std::move(command));
     }

@@ -22,11 +22,11 @@ class ExecutionListener {
  public:
     virtual ~ExecutionListener() = default;
     /// `position` counts from 1 among the `total` runs of the plan; `etaSeconds` is negative if unknown. If runs
-    /// overlap, `started` and `ended` are called for each, and `heard` for any of them.
+    /// overlap, `started` and `ended` are called for each, and `progressed` for any of them.
     virtual void started(std::size_t /*position*/, std::size_t /*total*/, const PlannedRun& /*run*/,
                          int /*repetitions*/, double /*etaSeconds*/) {}
     /// A progress line of the run: `frames 12 120`; empty about once a second while there is no output.
-    virtual void heard(std::string_view /*line*/) {}
+    virtual void progressed(std::string_view /*line*/) {}
     virtual void ended(const PlannedRun& /*run*/, RunStatus /*status*/, const std::string& /*reason*/) {}
 };
 

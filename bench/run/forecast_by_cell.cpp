@@ -5,7 +5,7 @@ namespace dustbench::bench {
 std::string cellOf(RunSpec run) {
     run.repetition = 1;
     run.seed = 1;
-    run.judging.reset();
+    run.metricPlan.reset();
     return canonicalKey(run);
 }
 
@@ -16,7 +16,7 @@ void ForecastByCell::set(const RunSpec& cell, const RunForecast& forecast) {
 double ForecastByCell::seconds(const RunSpec& run) const {
     const auto found = byCell_.find(cellOf(run));
     if (found == byCell_.end()) return -1;
-    return run.judging ? found->second.seconds() : found->second.measuring;
+    return run.metricPlan ? found->second.seconds() : found->second.measuring;
 }
 
 }  // namespace dustbench::bench

@@ -25,13 +25,13 @@ TEST(RunForecast, CountsEveryFrameOnceForWhatItNeeds) {
     const FramesBegun frames{.untilFrames = 2, .perFrame = 0.1};
     const MetricsBegun metrics{.untilFrames = 3, .perPlainFrame = 0.01, .perMoment = 5, .perStretchFrame = 1};
     EXPECT_DOUBLE_EQ(extrapolate(spec, frames, metrics).seconds(), 2 + 110 * 0.1);
-    spec.judging.emplace();
+    spec.metricPlan.emplace();
     // Five moments, 0, 24, 49, 74 and 99; the stretch is 69 … 99, of which two are moments.
     const RunForecast forecast = extrapolate(spec, frames, metrics);
     EXPECT_DOUBLE_EQ(forecast.measuring, 2 + 110 * 0.1);
-    EXPECT_DOUBLE_EQ(forecast.judging, 3 + 5 * 5 + 29 * 1 + (110 - 5 - 29) * 0.01);
+    EXPECT_DOUBLE_EQ(forecast.metricPlan, 3 + 5 * 5 + 29 * 1 + (110 - 5 - 29) * 0.01);
     spec.frames = 20;  // too few for a stretch
-    EXPECT_DOUBLE_EQ(extrapolate(spec, frames, metrics).judging, 3 + 5 * 5 + (30 - 5) * 0.01);
+    EXPECT_DOUBLE_EQ(extrapolate(spec, frames, metrics).metricPlan, 3 + 5 * 5 + (30 - 5) * 0.01);
 }
 
 TEST(RunForecast, BeginsEveryKindOfFrame) {
@@ -47,18 +47,18 @@ TEST(RunForecast, BeginsEveryKindOfFrame) {
         spec.warmup = 1;
         spec.frames = 40;
         spec.parameters = canonicalParameters(*info, {{"particles", "50"}, {"preroll", "0.2"}});
-        spec.judging.emplace();
+        spec.metricPlan.emplace();
         const TestFolder folder;
         const RunForecast forecast = forecastRun(spec, folder.path());
         EXPECT_GT(forecast.measuring, 0) << info->id;
-        EXPECT_EQ(forecast.judging > 0, !hasOwnState) << info->id;
+        EXPECT_EQ(forecast.metricPlan > 0, !hasOwnState) << info->id;
     }
 }
 
 TEST(ForecastByCell, MetricsCountForTheRunThatHasThem) {
     PlannedRun cell;
     cell.spec.method = "haze";
-    cell.spec.judging.emplace();
+    cell.spec.metricPlan.emplace();
     Suite suite;
     suite.cells = {cell};
     suite.repetitions = 3;

@@ -135,7 +135,7 @@ TEST_F(GpuDustRun, IsReplayedAndJudgedAsOnTheCpu) {
     std::vector<RunRecord> runs;
     for (const DustOn place : {DustOn::cpu, DustOn::gpu}) {
         RunSpec spec = specOf("billboard", place, {{"soft", "on"}, {"particles", "600"}});
-        spec.judging.emplace();
+        spec.metricPlan.emplace();
         runs.push_back(measured(spec));
     }
     EXPECT_GT(numberOf(runs[1], "psnr_db"), 60);

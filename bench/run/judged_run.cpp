@@ -28,7 +28,7 @@ ResolvedParameters resolvedWith(const RunSpec& spec, const ParameterTexts& finer
 class FinerRun {
  public:
     FinerRun(const RunSpec& spec, gpu::Device& device)
-        : parameters_(resolvedWith(spec, spec.judging->finer)),
+        : parameters_(resolvedWith(spec, spec.metricPlan->finer)),
           world_(spec.scene, spec.drive, parameters_.world, spec.seed),
           runner_(spec, world_, device, parameters_.method, false) {
         world_.followPath(spec.cameraPath);
@@ -56,27 +56,27 @@ class FinerRun {
     FrameRunner runner_;
 };
 
-void savePictures(const JudgedMoment& judged, const fs::path& folder) {
+void savePictures(const EvaluatedMoment& evaluated, const fs::path& folder) {
     const auto file = [&](const char* what, const char* extension) {
-        return folder / fmt::format("f{:06}{}.{}", judged.metrics.frame, what, extension);
+        return folder / fmt::format("f{:06}{}.{}", evaluated.metrics.frame, what, extension);
     };
     for (const char* extension : {"png", "exr"}) {
-        pictures::writeImage(judged.picture, file("", extension));
-        pictures::writeImage(judged.reference, file("_reference", extension));
+        pictures::writeImage(evaluated.picture, file("", extension));
+        pictures::writeImage(evaluated.reference, file("_reference", extension));
     }
-    pictures::writeImage(heatMap(judged.difference), file("_difference", "png"));
+    pictures::writeImage(heatMap(evaluated.difference), file("_difference", "png"));
 }
 
 }  // namespace
 
-std::string whyNotJudged(const JudgingPlan& plan, const Method& method) {
+std::string whyNotEvaluated(const MetricPlan& plan, const Method& method) {
     if (!method.stateHash() || !plan.finer.empty()) return {};
     return "no metrics: the method runs its own simulation, so a suite must name a finer setting of it as the "
            "reference ([metric_reference.ID])";
 }
 
-Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& device, const std::string& stateHash,
-                   const RunProgress& progress, const fs::path& references) {
+RunMetrics evaluateRun(const RunSpec& spec, const fs::path& folder, gpu::Device& device, const std::string& stateHash,
+                       const RunProgress& progress, const fs::path& references) {
     const MethodInfo& info = findMethod(spec.method);
     const ResolvedParameters parameters = resolveParameters(info, spec.parameters);
     World world(spec.scene, spec.drive, parameters.world, spec.seed);
@@ -85,19 +85,19 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
     (void)placeDust(spec, world, device);
     std::optional<World> continuum;
     std::optional<FinerRun> finer;
-    if (!spec.judging->finer.empty())
+    if (!spec.metricPlan->finer.empty())
         finer.emplace(spec, device);
     else if (spec.dust.empty())
         continuum.emplace(spec.scene, spec.drive, parameters.world, spec.seed, continuumParticles);
     FrameRunner runner(spec, world, device, parameters.method, false);
-    const std::vector<std::int64_t> moments = spec.judging->momentsOf(spec.frames);
-    const std::vector<std::int64_t> stretch = JudgingPlan::stretchOf(spec.frames);
-    if (spec.judging->keepsPictures) fs::create_directories(folder / "images");
+    const std::vector<std::int64_t> moments = spec.metricPlan->momentsOf(spec.frames);
+    const std::vector<std::int64_t> stretch = MetricPlan::stretchOf(spec.frames);
+    if (spec.metricPlan->keepsPictures) fs::create_directories(folder / "images");
 
     ReferenceStore store(references);
-    Judgement judgement;
-    PoppingJudge poppingJudge;
-    const auto judge = [&](std::int64_t frame) {
+    RunMetrics runMetrics;
+    PoppingMeter poppingMeter;
+    const auto evaluate = [&](std::int64_t frame) {
         const bool isMoment = isAmong(moments, frame), inStretch = isAmong(stretch, frame);
         if (!isMoment && !inStretch) return;
         const scene::View view = world.view(spec.size.width, spec.size.height);
@@ -116,20 +116,20 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
             CollectedVolume volume, reference;
             runner.volume(volume);
             finer ? finer->volume(reference) : reference.puffs(world.dust());
-            JudgedMoment judged =
-                judgeMoment(drawn, exact, {runner.host().primitives(), volume, reference, view, spec.seed});
-            judged.metrics.frame = frame;
-            if (spec.judging->keepsPictures) savePictures(judged, folder / "images");
-            metrics = judged.metrics;
+            EvaluatedMoment evaluated =
+                evaluateMoment(drawn, exact, {runner.host().primitives(), volume, reference, view, spec.seed});
+            evaluated.metrics.frame = frame;
+            if (spec.metricPlan->keepsPictures) savePictures(evaluated, folder / "images");
+            metrics = evaluated.metrics;
         }
         metrics.frame = frame;
         metrics.timeSeconds = world.state().timeSeconds;
         if (inStretch) {
             CollectedVolume volume;
             runner.volume(volume);
-            metrics.values.set("popping", poppingJudge.add(drawn, exact, sizedPrimitivesOnScreen(volume, view)));
+            metrics.values.set("popping", poppingMeter.add(drawn, exact, sizedPrimitivesOnScreen(volume, view)));
         }
-        judgement.frames.push_back(metrics);
+        runMetrics.frames.push_back(metrics);
     };
     const std::int64_t preroll = stepsBeforeWarmup(world);
     // Steps the continuum only to the last moment that needs it.
@@ -142,14 +142,14 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
         return true;
     };
     const std::int64_t allSteps = preroll + spec.warmup + spec.frames;
-    const auto judging = [&](std::string_view, std::int64_t, std::int64_t) { progress("metrics", steps, allSteps); };
-    replay({spec, runner, preroll, spec.frames - 1, stepped, judge, judging});
+    const auto atMetrics = [&](std::string_view, std::int64_t, std::int64_t) { progress("metrics", steps, allSteps); };
+    replay({spec, runner, preroll, spec.frames - 1, stepped, evaluate, atMetrics});
 
     if (const std::string again = fmt::format("{:016x}", world.stateHash()); again != stateHash)
         throw std::runtime_error("metrics: the replay of the run ends in state " + again + ", not in " + stateHash);
-    judgement.ofRun = valuesOf(poppingJudge.ofRun());
-    writeWhole(folder / "metrics.csv", metricsCsv(judgement));
-    return judgement;
+    runMetrics.ofRun = valuesOf(poppingMeter.ofRun());
+    writeWhole(folder / "metrics.csv", metricsCsv(runMetrics));
+    return runMetrics;
 }
 
 }  // namespace dustbench::bench

@@ -14,12 +14,12 @@
 namespace dustbench::bench {
 namespace {
 
-class JudgedRun : public testing::Test {
+class EvaluatedRun : public testing::Test {
  protected:
     /// The summary of a run with metrics and this many frames.
-    std::map<std::string, double> judged(const std::string& method, const ParameterTexts& parameters,
-                                         std::int64_t frames = 31, const std::string& drive = "straight",
-                                         const ParameterTexts& finer = {}, const std::string& scene = "plain") {
+    std::map<std::string, double> evaluated(const std::string& method, const ParameterTexts& parameters,
+                                            std::int64_t frames = 31, const std::string& drive = "straight",
+                                            const ParameterTexts& finer = {}, const std::string& scene = "plain") {
         RunSpec spec;
         spec.method = method;
         spec.scene = scene;
@@ -28,7 +28,7 @@ class JudgedRun : public testing::Test {
         spec.frames = frames;
         spec.warmup = 2;
         spec.parameters = canonicalParameters(findMethod(method), parameters);
-        spec.judging.emplace().finer = finer;
+        spec.metricPlan.emplace().finer = finer;
         std::map<std::string, double> numbers;
         const RunRecord record = measureRun(
             spec, folder_.path(), {}, [](std::string_view, std::int64_t, std::int64_t) {}, references_);
@@ -46,10 +46,10 @@ class JudgedRun : public testing::Test {
     std::filesystem::path references_;  ///< shared by runs; empty: none
 };
 
-TEST_F(JudgedRun, SoftBillboardsAreTheExactPictureAndHardOnesAreCutOff) {
+TEST_F(EvaluatedRun, SoftBillboardsAreTheExactPictureAndHardOnesAreCutOff) {
     if (!hasMethod("billboard")) GTEST_SKIP() << "no billboards here";
-    auto soft = judged("billboard", {{"soft", "on"}, {"particles", "600"}});
-    auto hard = judged("billboard", {{"soft", "off"}, {"particles", "600"}});
+    auto soft = evaluated("billboard", {{"soft", "on"}, {"particles", "600"}});
+    auto hard = evaluated("billboard", {{"soft", "off"}, {"particles", "600"}});
     EXPECT_GT(soft.at("psnr_db"), 60);
     EXPECT_LT(soft.at("popping"), 0.001);
     EXPECT_LT(hard.at("psnr_db"), soft.at("psnr_db") - 10);
@@ -58,10 +58,10 @@ TEST_F(JudgedRun, SoftBillboardsAreTheExactPictureAndHardOnesAreCutOff) {
     EXPECT_GT(soft.at("quads_per_pixel"), 0);
 }
 
-TEST_F(JudgedRun, IsTheSameWithReferencesOfAnotherRun) {
+TEST_F(EvaluatedRun, IsTheSameWithReferencesOfAnotherRun) {
     if (!hasMethod("billboard") || !hasMethod("null_method")) GTEST_SKIP() << "no billboards here";
     const auto metrics = [&](const char* method) {
-        (void)judged(method, {{"particles", "300"}}, 7);
+        (void)evaluated(method, {{"particles", "300"}}, 7);
         return files::wholeText(folder_.path() / "metrics.csv", "metrics");
     };
     const auto images = [&] {
@@ -76,10 +76,10 @@ TEST_F(JudgedRun, IsTheSameWithReferencesOfAnotherRun) {
     EXPECT_EQ(images(), ofFirst) << "the second run needs no image that the first has not stored";
 }
 
-TEST_F(JudgedRun, LitDustIsJudgedByItsLightAndItsGapsStayAsTheyAre) {
+TEST_F(EvaluatedRun, LitDustIsJudgedByItsLightAndItsGapsStayAsTheyAre) {
     if (!hasMethod("exact_tiles") || !hasMethod("null_method")) GTEST_SKIP() << "no exact tiles here";
     const auto of = [&](const char* method, const char* light) {
-        return judged(method, {{"light", light}, {"particles", "600"}}, 5);
+        return evaluated(method, {{"light", light}, {"particles", "600"}}, 5);
     };
     const auto unlit = of("exact_tiles", "none"), lit = of("exact_tiles", "sun"), nothing = of("null_method", "sun");
     EXPECT_EQ(lit.at("gaps"), unlit.at("gaps"));
@@ -91,11 +91,11 @@ TEST_F(JudgedRun, LitDustIsJudgedByItsLightAndItsGapsStayAsTheyAre) {
     EXPECT_LT(nothing.at("psnr_mask_db"), lit.at("psnr_mask_db") - 15);
 }
 
-TEST_F(JudgedRun, DustOfTwoSoilsNeedsOrder) {
+TEST_F(EvaluatedRun, DustOfTwoSoilsNeedsOrder) {
     if (!hasMethod("weighted_oit") || !hasMethod("moment_oit") || !hasMethod("exact_tiles"))
         GTEST_SKIP() << "no OIT here";
     const auto of = [&](const char* method) {
-        return judged(method, {{"particles", "600"}}, 5, "straight", {}, "two_soils").at("psnr_mask_db");
+        return evaluated(method, {{"particles", "600"}}, 5, "straight", {}, "two_soils").at("psnr_mask_db");
     };
     const double weighted = of("weighted_oit"), moments = of("moment_oit"), exact = of("exact_tiles");
     EXPECT_LT(weighted, 52);
@@ -103,16 +103,16 @@ TEST_F(JudgedRun, DustOfTwoSoilsNeedsOrder) {
     EXPECT_GT(exact, moments + 30);
 }
 
-TEST_F(JudgedRun, GapsOfBillboardsRiseWithSpeed) {
+TEST_F(EvaluatedRun, GapsOfBillboardsRiseWithSpeed) {
     if (!hasMethod("billboard")) GTEST_SKIP() << "no billboards here";
     std::vector<double> gaps;
     for (const char* speed : {"5", "15", "40"})
-        gaps.push_back(judged("billboard", {{"speed", speed}, {"particles", "600"}, {"soft", "on"}}, 5).at("gaps"));
+        gaps.push_back(evaluated("billboard", {{"speed", speed}, {"particles", "600"}, {"soft", "on"}}, 5).at("gaps"));
     EXPECT_LT(gaps[0], gaps[1]);
     EXPECT_LT(gaps[1], gaps[2]);
 }
 
-TEST_F(JudgedRun, VoxelsPopAndCrossFadingPopsLess) {
+TEST_F(EvaluatedRun, VoxelsPopAndCrossFadingPopsLess) {
     if (!hasMethod("octree_search") || !hasMethod("billboard")) GTEST_SKIP() << "no octree here";
     const ParameterTexts world{{"particles", "600"}};
     const auto with = [&](const char* name, const char* value) {
@@ -120,28 +120,28 @@ TEST_F(JudgedRun, VoxelsPopAndCrossFadingPopsLess) {
         texts[name] = value;
         return texts;
     };
-    const double soft = judged("billboard", with("soft", "on")).at("popping");
-    const double plain = judged("octree_search", with("crossfade", "off")).at("popping");
-    const double faded = judged("octree_search", with("crossfade", "on")).at("popping");
+    const double soft = evaluated("billboard", with("soft", "on")).at("popping");
+    const double plain = evaluated("octree_search", with("crossfade", "off")).at("popping");
+    const double faded = evaluated("octree_search", with("crossfade", "on")).at("popping");
     EXPECT_LT(faded, plain);
     EXPECT_LT(soft, 0.1 * faded);
 }
 
-TEST_F(JudgedRun, HoldsAMethodAgainstItselfAtAFinerSetting) {
+TEST_F(EvaluatedRun, HoldsAMethodAgainstItselfAtAFinerSetting) {
     if (!hasMethod("octree_search")) GTEST_SKIP() << "no octree here";
     const ParameterTexts coarse{{"particles", "300"}, {"depth", "7"}, {"policy", "accumulate"}};
-    const auto self = judged("octree_search", coarse, 5, "straight", {{"depth", "7"}});
+    const auto self = evaluated("octree_search", coarse, 5, "straight", {{"depth", "7"}});
     EXPECT_EQ(self.at("identical"), 1);
     EXPECT_EQ(self.at("volume_error"), 0);
     EXPECT_EQ(self.at("gaps"), 0);
-    const auto finer = judged("octree_search", coarse, 5, "straight", {{"depth", "9"}});
+    const auto finer = evaluated("octree_search", coarse, 5, "straight", {{"depth", "9"}});
     EXPECT_EQ(finer.at("identical"), 0);
     EXPECT_GT(finer.at("volume_error"), 0.1);
 }
 
-TEST_F(JudgedRun, LeavesARowAndThePicturesOfEachJudgedFrame) {
+TEST_F(EvaluatedRun, LeavesARowAndThePicturesOfEachJudgedFrame) {
     const std::string method = methods().front().id;
-    const auto numbers = judged(method, {{"particles", "100"}}, 33);
+    const auto numbers = evaluated(method, {{"particles", "100"}}, 33);
     const auto table = files::CsvTable::parseFile(folder_.path() / "metrics.csv");
     ASSERT_EQ(table.rows(), 32u);  // moments 0, 8, 16, 24, 32, and the last 31: 2 to 32
     EXPECT_EQ(table.cell(0, "frame"), "0");
@@ -156,10 +156,10 @@ TEST_F(JudgedRun, LeavesARowAndThePicturesOfEachJudgedFrame) {
                 << frame << file;
 }
 
-TEST_F(JudgedRun, HasNoPoppingInAShortRunAndNoMetricsWithoutDust) {
+TEST_F(EvaluatedRun, HasNoPoppingInAShortRunAndNoMetricsWithoutDust) {
     const std::string method = methods().front().id;
-    EXPECT_FALSE(judged(method, {{"particles", "100"}}, 30).contains("popping"));
-    const auto empty = judged(method, {{"preroll", "0"}}, 31, "stop_and_go");  // the vehicle stands at first
+    EXPECT_FALSE(evaluated(method, {{"particles", "100"}}, 30).contains("popping"));
+    const auto empty = evaluated(method, {{"preroll", "0"}}, 31, "stop_and_go");  // the vehicle stands at first
     for (const char* name :
          {"popping", "gaps", "spill", "components", "cutoff", "self_similarity", "quads_per_pixel", "psnr_db",
           "psnr_mask_db", "ssim_mask", "flip_mask", "rmse_linear_mask", "error_max", "banding"})

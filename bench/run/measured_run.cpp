@@ -97,8 +97,9 @@ DustCount dustCount(const RunSpec& spec, const FrameRunner& runner) {
 
 /// Moments of a run that can have no metrics: their pictures are stored anyway, for inspection.
 std::vector<std::int64_t> momentsToShow(const RunSpec& spec, const Method& method) {
-    if (!spec.judging || !spec.judging->keepsPictures || whyNotJudged(*spec.judging, method).empty()) return {};
-    return spec.judging->momentsOf(spec.frames);
+    if (!spec.metricPlan || !spec.metricPlan->keepsPictures || whyNotEvaluated(*spec.metricPlan, method).empty())
+        return {};
+    return spec.metricPlan->momentsOf(spec.frames);
 }
 
 /// Runs the untimed steps, the last of which is verified, then warm-up and recorded frames. Fills in the measurements
@@ -218,8 +219,8 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     record.validity = whyInvalid(info, facts, dustCount(spec, runner));
     if (!record.validity.empty())
         record.summary.emplace_back("invalid", fmt::format("{}", fmt::join(record.validity, "; ")));
-    if (spec.imagesEvery > 0 || (spec.judging && spec.judging->keepsPictures)) {
-        const std::int64_t first = spec.imagesEvery > 0 ? 0 : spec.judging->momentsOf(spec.frames).front();
+    if (spec.imagesEvery > 0 || (spec.metricPlan && spec.metricPlan->keepsPictures)) {
+        const std::int64_t first = spec.imagesEvery > 0 ? 0 : spec.metricPlan->momentsOf(spec.frames).front();
         record.summary.emplace_back("FILE_image", fmt::format("runs/{}/images/f{:06}.png", runId(spec), first));
     }
     if (const std::string series = volumes.firstSeries(); !series.empty())
@@ -229,16 +230,16 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
         writeWhole(folder / "stages.csv", stagesCsv(runner.records()));
     }
     for (const KeptFile& file : runner.method().files()) writeWhole(folder / file.name, file.text);
-    if (!spec.judging) return;
-    if (std::string reason = whyNotJudged(*spec.judging, runner.method()); !reason.empty()) {
+    if (!spec.metricPlan) return;
+    if (std::string reason = whyNotEvaluated(*spec.metricPlan, runner.method()); !reason.empty()) {
         record.provenance.warnings.push_back(std::move(reason));
         return;
     }
-    record.summary.emplace_back("metric_reference", spec.judging->referenceText());
+    record.summary.emplace_back("metric_reference", spec.metricPlan->referenceText());
     timed.reset();
-    const Judgement judgement = judgeRun(spec, folder, device, record.stateHash, progress, references);
-    for (auto& [column, value] : summaryOf(judgement)) record.summary.emplace_back(std::move(column), value);
-    if (std::string warning = volumeWarning(judgement); !warning.empty())
+    const RunMetrics runMetrics = evaluateRun(spec, folder, device, record.stateHash, progress, references);
+    for (auto& [column, value] : summaryOf(runMetrics)) record.summary.emplace_back(std::move(column), value);
+    if (std::string warning = volumeWarning(runMetrics); !warning.empty())
         record.provenance.warnings.push_back(std::move(warning));
 }
 

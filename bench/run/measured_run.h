@@ -17,7 +17,7 @@ namespace dustbench::bench {
 using RunProgress = std::function<void(std::string_view phase, std::int64_t done, std::int64_t total)>;
 
 /// Measures the run and writes frames.csv, stages.csv, metrics.csv, images/ and volumes/ to `folder`. `argv` is the
-/// user's command; `references` is that of judgeRun. Throws InputError for user-correctable errors and
+/// user's command; `references` is that of evaluateRun. Throws InputError for user-correctable errors and
 /// std::runtime_error if the method fails.
 [[nodiscard]] RunRecord measureRun(const RunSpec& spec, const std::filesystem::path& folder,
                                    std::vector<std::string> argv, const RunProgress& progress,

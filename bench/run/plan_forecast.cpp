@@ -21,7 +21,7 @@ std::optional<RunForecast> parseForecast(std::string_view line) {
     if (!line.starts_with(lineStart)) return {};
     std::istringstream words{std::string(line.substr(lineStart.size()))};
     RunForecast forecast;
-    if (!(words >> forecast.measuring >> forecast.judging)) return {};
+    if (!(words >> forecast.measuring >> forecast.metricPlan)) return {};
     return forecast;
 }
 
@@ -32,7 +32,7 @@ std::string nameOf(const PlannedRun& run) {
 }  // namespace
 
 std::string forecastLine(const RunForecast& forecast) {
-    return fmt::format("{}{:.3f} {:.3f}", lineStart, forecast.measuring, forecast.judging);
+    return fmt::format("{}{:.3f} {:.3f}", lineStart, forecast.measuring, forecast.metricPlan);
 }
 
 PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& results, ExecutionOptions& options,
@@ -46,11 +46,11 @@ PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& re
     for (const PlannedRun* run : toDo) {
         if (!run->skip.empty()) continue;
         const PlannedRun*& chosen = cells[cellOf(run->spec)];
-        if (chosen == nullptr || run->spec.judging) chosen = run;
+        if (chosen == nullptr || run->spec.metricPlan) chosen = run;
     }
     std::size_t begun = 0;
     for (const auto& [key, run] : cells) {
-        listener.heard(fmt::format("begun {} {}", begun++, cells.size()));
+        listener.progressed(fmt::format("begun {} {}", begun++, cells.size()));
         const std::string id = runId(run->spec);
         const fs::path folder = results.beginRun(id);
         writeWhole(folder / "spec.json", specToJson(run->spec));
@@ -63,7 +63,7 @@ PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& re
         command.interrupted = options.interrupted;
         command.onLine = [&](std::string_view line) {
             if (const auto parsed = parseForecast(line)) forecast = parsed;
-            listener.heard("");
+            listener.progressed("");
         };
         const auto start = Clock::now();
         const ChildOutcome outcome = runChild(command);

@@ -28,19 +28,19 @@ double seconds(std::int64_t nanoseconds) {
 }
 
 FramesBegun beginFrames(RunSpec spec, const fs::path& folder) {
-    spec.judging.reset();
+    spec.metricPlan.reset();
     FramesBegun begun;
     const double untilCall = secondsSinceProcessStart();
     const std::int64_t called = steadyNow();
     std::int64_t first = 0, last = 0, frames = -1;
-    const auto hear = [&](std::string_view phase, std::int64_t, std::int64_t) {
+    const auto onProgress = [&](std::string_view phase, std::int64_t, std::int64_t) {
         if (phase == "preroll") return;
         last = steadyNow();
         if (++frames == 0) first = last;
         if (frames >= minimumFrames && seconds(last - first) >= minimumSeconds) throw Enough();
     };
     try {
-        (void)measureRun(spec, folder, {}, hear);
+        (void)measureRun(spec, folder, {}, onProgress);
     } catch (const Enough&) {
     }
     // A method that does not support the scene has no frames.
@@ -55,17 +55,17 @@ MetricsBegun beginMetrics(RunSpec spec, const fs::path& folder, gpu::Device& dev
     constexpr std::int64_t moment = 1, stretch = 2, end = 4;
     spec.warmup = 1;
     spec.frames = stretch + PoppingSummary::minimumPairs + 1;
-    spec.judging->moments = FrameRange{moment, end + 1, end + 1 - moment};
+    spec.metricPlan->moments = FrameRange{moment, end + 1, end + 1 - moment};
 
     const std::int64_t called = steadyNow();
     std::map<std::int64_t, double> begins;  // of each frame, since the call
-    const auto hear = [&](std::string_view, std::int64_t step, std::int64_t steps) {
+    const auto onProgress = [&](std::string_view, std::int64_t step, std::int64_t steps) {
         const std::int64_t frame = step - (steps - spec.frames);
         begins[frame] = seconds(steadyNow() - called);
         if (frame == end) throw Enough();
     };
     try {
-        (void)judgeRun(spec, folder, device, {}, hear);
+        (void)evaluateRun(spec, folder, device, {}, onProgress);
     } catch (const Enough&) {
     }
     return {.untilFrames = begins.at(-1),
@@ -79,28 +79,28 @@ MetricsBegun beginMetrics(RunSpec spec, const fs::path& folder, gpu::Device& dev
 RunForecast extrapolate(const RunSpec& spec, const FramesBegun& frames, const MetricsBegun& metrics) {
     RunForecast forecast;
     forecast.measuring = frames.untilFrames + frames.perFrame * static_cast<double>(spec.warmup + spec.frames);
-    if (!spec.judging) return forecast;
-    const std::vector<std::int64_t> moments = spec.judging->momentsOf(spec.frames);
+    if (!spec.metricPlan) return forecast;
+    const std::vector<std::int64_t> moments = spec.metricPlan->momentsOf(spec.frames);
     std::int64_t stretch = 0;
-    for (const std::int64_t frame : JudgingPlan::stretchOf(spec.frames))
+    for (const std::int64_t frame : MetricPlan::stretchOf(spec.frames))
         if (!std::ranges::binary_search(moments, frame)) ++stretch;
-    const auto judged = static_cast<std::int64_t>(moments.size());
-    const std::int64_t plain = spec.warmup + spec.frames - judged - stretch;
-    forecast.judging = metrics.untilFrames + metrics.perPlainFrame * static_cast<double>(plain) +
-                       metrics.perMoment * static_cast<double>(judged) +
-                       metrics.perStretchFrame * static_cast<double>(stretch);
+    const auto evaluated = static_cast<std::int64_t>(moments.size());
+    const std::int64_t plain = spec.warmup + spec.frames - evaluated - stretch;
+    forecast.metricPlan = metrics.untilFrames + metrics.perPlainFrame * static_cast<double>(plain) +
+                          metrics.perMoment * static_cast<double>(evaluated) +
+                          metrics.perStretchFrame * static_cast<double>(stretch);
     return forecast;
 }
 
 RunForecast forecastRun(const RunSpec& spec, const fs::path& folder) {
     const FramesBegun frames = beginFrames(spec, folder);
-    if (!spec.judging || frames.perFrame == 0) return extrapolate(spec, frames, {});
+    if (!spec.metricPlan || frames.perFrame == 0) return extrapolate(spec, frames, {});
     MetricsBegun metrics;
     withThreads(spec.threads, [&] {
         gpu::Device device;
         const MethodInfo& info = findMethod(spec.method);
         const auto method = info.create(resolveParameters(info, spec.parameters).method);
-        if (whyNotJudged(*spec.judging, *method).empty()) metrics = beginMetrics(spec, folder, device);
+        if (whyNotEvaluated(*spec.metricPlan, *method).empty()) metrics = beginMetrics(spec, folder, device);
     });
     return extrapolate(spec, frames, metrics);
 }

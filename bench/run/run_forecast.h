@@ -12,9 +12,9 @@
 namespace dustbench::bench {
 
 struct RunForecast {
-    double measuring = 0;  ///< from the start of the process to the last frame
-    double judging = 0;    ///< the metrics after it
-    [[nodiscard]] double seconds() const { return measuring + judging; }
+    double measuring = 0;   ///< from the start of the process to the last frame
+    double metricPlan = 0;  ///< the metrics after it
+    [[nodiscard]] double seconds() const { return measuring + metricPlan; }
 };
 
 /// Timings of a partial pass of frames.

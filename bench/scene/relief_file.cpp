@@ -13,7 +13,7 @@
 namespace dustbench::bench {
 namespace {
 
-constexpr int fewestTexels = 2, mostTexels = files::limits::heightEdge;
+constexpr int minimumTexels = 2, maximumTexels = files::limits::heightEdge;
 
 std::string sizeOf(const pictures::StoredPicture& picture) {
     return std::to_string(picture.width) + "x" + std::to_string(picture.height);
@@ -24,9 +24,10 @@ void requireSize(const std::filesystem::path& file) {
     pictures::StoredPicture picture;
     if (const std::string reason = pictures::readPictureSize(file, picture); !reason.empty())
         throw InputError(file.string() + ": not an image that can be read: " + reason);
-    if (std::min(picture.width, picture.height) < fewestTexels || std::max(picture.width, picture.height) > mostTexels)
+    if (std::min(picture.width, picture.height) < minimumTexels ||
+        std::max(picture.width, picture.height) > maximumTexels)
         throw InputError(file.string() + ": has " + sizeOf(picture) + " texels, allowed: 2.." +
-                         std::to_string(mostTexels) + " a side");
+                         std::to_string(maximumTexels) + " a side");
 }
 
 pictures::StoredPicture readPicture(const std::filesystem::path& file) {

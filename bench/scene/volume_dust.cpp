@@ -138,7 +138,7 @@ void add(DustMoment& moment, const Block& block, const Blocks& blocks, const vol
 std::vector<DustMoment> dustOfVolume(const volumes::VolumeSeries& series, const volumes::VolumeSetup& setup) {
     const std::span<const VolumeGrid> grids = series.moments();
     GridPlace whole = grids.front();
-    for (const VolumeGrid& grid : grids) whole = together(whole, grid);
+    for (const VolumeGrid& grid : grids) whole = enclosing(whole, grid);
     if (cellsOf(whole) > maximumIds)
         throw InputError(series.files().front().string() +
                          ": the moments of the series are too far apart for particles");

@@ -56,7 +56,7 @@ PlannedPicture readPicture(files::TomlReader& table, ImageSize size) {
     if (table.has("reference")) picture.reference = table.choice("reference", references);
     if (picture.reference == Reference::exact) {
         spec.frames = minimumMoments;
-        spec.judging.emplace();
+        spec.metricPlan.emplace();
     }
     table.finish();
     if (std::ranges::find(methods(), spec.method, &MethodInfo::id) == methods().end()) {

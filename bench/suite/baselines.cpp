@@ -15,7 +15,7 @@ RunSpec baselineOf(RunSpec spec) {
     spec.parameters = canonicalParameters(*findBaseline(), spec.parameters);
     spec.imagesEvery = 0;
     spec.volumes.reset();
-    spec.judging.reset();
+    spec.metricPlan.reset();
     return spec;
 }
 

@@ -57,7 +57,7 @@ TEST_F(Baselines, RunOnceInEveryWorldWhateverTheMethodsSettings) {
     for (const PlannedRun& cell : added) {
         EXPECT_TRUE(theirs.insert(worldKey(cell.spec)).second) << cell.label;
         EXPECT_EQ(cell.spec.method, baselineMethod);
-        EXPECT_FALSE(cell.spec.judging);
+        EXPECT_FALSE(cell.spec.metricPlan);
         EXPECT_FALSE(cell.spec.volumes);
         EXPECT_EQ(cell.spec.imagesEvery, 0);
         EXPECT_EQ(cell.spec.frames, suite.cells.front().spec.frames);

@@ -74,7 +74,7 @@ Suite sideBySideSuite(const std::vector<std::string>& variants, const ParameterT
         PlannedRun cell{base, ""};
         cell.spec.method = method->id;
         cell.spec.parameters = canonicalParameters(*method, values);
-        if (!cell.spec.judging) cell.spec.judging.emplace();
+        if (!cell.spec.metricPlan) cell.spec.metricPlan.emplace();
         requireFramesWithinRun(cell.spec);
         for (const auto& [name, value] : own)
             cell.label += (cell.label.empty() ? "" : " ") + name + "=" + cell.spec.parameters.at(name);

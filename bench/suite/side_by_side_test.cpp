@@ -29,7 +29,7 @@ TEST_F(MethodComparison, JudgesEveryVariantAndComparesEachWithTheFirst) {
     ASSERT_EQ(suite.cells.size(), 3u);
     EXPECT_EQ(suite.repetitions, 3);
     for (const PlannedRun& cell : suite.cells) {
-        EXPECT_TRUE(cell.spec.judging);
+        EXPECT_TRUE(cell.spec.metricPlan);
         EXPECT_EQ(cell.spec.parameters.at("particles"), "70");
     }
     EXPECT_EQ(suite.cells[1].label, "soft=on sort=none");
@@ -40,9 +40,9 @@ TEST_F(MethodComparison, JudgesEveryVariantAndComparesEachWithTheFirst) {
 
 TEST_F(MethodComparison, JudgesOneRepetitionAlone) {
     const Suite suite = sideBySideSuite({"billboard", "billboard:soft=true"}, {}, {}, 4);
-    int judged = 0;
-    for (const PlannedRun& run : planRuns(suite)) judged += run.spec.judging ? 1 : 0;
-    EXPECT_EQ(judged, 2);
+    int evaluated = 0;
+    for (const PlannedRun& run : planRuns(suite)) evaluated += run.spec.metricPlan ? 1 : 0;
+    EXPECT_EQ(evaluated, 2);
 }
 
 TEST_F(MethodComparison, GivesParametersToTheMethodsThatHaveThem) {

@@ -50,8 +50,8 @@ std::size_t leaveOut(const Exception& exception, std::vector<PlannedRun>& cells)
     std::size_t count = 0;
     if (exception.metricsOnly) {
         for (PlannedRun& cell : cells) {
-            if (!cell.spec.judging || !isCovered(cell)) continue;
-            cell.spec.judging.reset();
+            if (!cell.spec.metricPlan || !isCovered(cell)) continue;
+            cell.spec.metricPlan.reset();
             ++count;
         }
         return count;
@@ -137,8 +137,8 @@ Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
     for (const std::string& id : draft.methods) {
         RunSpec base = draft.base;
         base.method = id;
-        if (const auto finer = draft.finerSettings.find(id); base.judging && finer != draft.finerSettings.end())
-            base.judging->finer = finer->second;
+        if (const auto finer = draft.finerSettings.find(id); base.metricPlan && finer != draft.finerSettings.end())
+            base.metricPlan->finer = finer->second;
         // The same in every world, so they are resolved once.
         const std::vector<PlannedRun> settings = expandParameters(base, findMethod(id), listsOf(draft, id));
         for (const PlannedRun& setting : settings) requireChangesWithinRun(setting.spec);
@@ -293,7 +293,7 @@ std::vector<PlannedRun> expandParameters(const RunSpec& base, const MethodInfo& 
 
 RunSpec inRepetition(RunSpec cell, int repetition) {
     cell.repetition = repetition;
-    if (repetition > 1) cell.judging.reset();
+    if (repetition > 1) cell.metricPlan.reset();
     return cell;
 }
 

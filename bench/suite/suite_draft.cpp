@@ -147,21 +147,21 @@ void readVolumes(files::TomlReader& table, std::optional<VolumeSettings>& volume
 }
 
 /// `metrics` requests metrics; `metric_frames` and `metric_pictures` refine it.
-void readJudging(files::TomlReader& table, std::optional<JudgingPlan>& judging) {
+void readMetricPlan(files::TomlReader& table, std::optional<MetricPlan>& metricPlan) {
     if (table.has("metrics")) {
         if (!table.boolean("metrics", false))
-            judging.reset();
-        else if (!judging)
-            judging.emplace();
+            metricPlan.reset();
+        else if (!metricPlan)
+            metricPlan.emplace();
     }
     for (const char* key : {"metric_frames", "metric_pictures"})
-        if (table.has(key) && !judging)
+        if (table.has(key) && !metricPlan)
             throw InputError(fmt::format("{}key '{}': requires 'metrics = true'", table.where(key), key));
-    if (table.has("metric_pictures")) judging->keepsPictures = table.boolean("metric_pictures", true);
+    if (table.has("metric_pictures")) metricPlan->keepsPictures = table.boolean("metric_pictures", true);
     if (!table.has("metric_frames")) return;
     const std::string text = table.text("metric_frames", "");
     try {
-        judging->moments = parseFrameRange("metric_frames", text);
+        metricPlan->moments = parseFrameRange("metric_frames", text);
     } catch (const InputError& error) {
         throw at(table.where("metric_frames"), error);
     }
@@ -276,7 +276,7 @@ void SuiteDraft::read(files::TomlReader& table) {
     base.threads = static_cast<int>(table.integer("threads", 0, 1024, base.threads));
     base.imagesEvery = table.integer("images", 0, maximumFrames, base.imagesEvery);
     readVolumes(table, base.volumes);
-    readJudging(table, base.judging);
+    readMetricPlan(table, base.metricPlan);
     if (table.has("times")) {
         base.timed = table.boolean("times", true);
         timesWhere = table.where("times");

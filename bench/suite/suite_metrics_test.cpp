@@ -29,12 +29,13 @@ TEST(SuiteMetrics, LeavesMetricsOutAlone) {
     const Suite suite = parseSuite(text, "s.toml", false);
     EXPECT_EQ(suite.cells.size(), 4u);
     for (const PlannedRun& cell : suite.cells) {
-        EXPECT_EQ(cell.spec.judging.has_value(), cell.spec.size.width == 64 && cell.spec.parameters.at("work") == "0");
+        EXPECT_EQ(cell.spec.metricPlan.has_value(),
+                  cell.spec.size.width == 64 && cell.spec.parameters.at("work") == "0");
         EXPECT_EQ(cell.skip, "");
-        if (!cell.spec.judging) continue;
-        EXPECT_FALSE(cell.spec.judging->keepsPictures);
+        if (!cell.spec.metricPlan) continue;
+        EXPECT_FALSE(cell.spec.metricPlan->keepsPictures);
         RunSpec withPictures = cell.spec;
-        withPictures.judging->keepsPictures = true;
+        withPictures.metricPlan->keepsPictures = true;
         EXPECT_NE(runId(withPictures), runId(cell.spec));
         EXPECT_EQ(runId(specFromJson(specToJson(cell.spec))), runId(cell.spec));
     }

@@ -163,11 +163,11 @@ TextRows tabulateCounts(const Suite& suite, const StoredRuns& runs) {
 }
 
 TextRows tabulateMetrics(const Suite& suite, const StoredRuns& runs) {
-    const bool judged = std::ranges::any_of(suite.cells, [&](const PlannedRun& cell) {
+    const bool evaluated = std::ranges::any_of(suite.cells, [&](const PlannedRun& cell) {
         const StoredRun* first = doneRun(cell, 1, runs);
         return first && numberIn(*first, "rmse_linear");
     });
-    if (!judged) return {};
+    if (!evaluated) return {};
     Row names;
     for (const Metric& metric : metrics()) names.emplace_back(metric.column);
     return tabulateRuns(suite, runs, names, metricsOf);

@@ -360,17 +360,17 @@ soft = true
 )",
                                    "s", false);
     ASSERT_EQ(suite.cells.size(), 1u);
-    int judged = 0;
+    int evaluated = 0;
     for (const PlannedRun& run : planRuns(suite)) {
-        if (!run.spec.judging) continue;
-        ++judged;
+        if (!run.spec.metricPlan) continue;
+        ++evaluated;
         EXPECT_EQ(run.spec.repetition, 1);
-        EXPECT_EQ(run.spec.judging->moments->text(), "0:33:8");
-        EXPECT_EQ(run.spec.judging->referenceText(), "soft=on");
+        EXPECT_EQ(run.spec.metricPlan->moments->text(), "0:33:8");
+        EXPECT_EQ(run.spec.metricPlan->referenceText(), "soft=on");
         const RunSpec again = specFromJson(specToJson(run.spec));
         EXPECT_EQ(runId(again), runId(run.spec));
     }
-    EXPECT_EQ(judged, 1);
+    EXPECT_EQ(evaluated, 1);
 }
 
 TEST(Suite, SaysWhereMetricsAreAskedForWrongly) {

@@ -80,9 +80,9 @@ struct LeftOut {
     }
 };
 
-CellVerdict judged(std::vector<std::string> at, const std::vector<double>& logRatios, Order order,
-                   const LeftOut& leftOut) {
-    CellVerdict verdict{std::move(at), judgeLogRatios(logRatios), ""};
+CellVerdict evaluated(std::vector<std::string> at, const std::vector<double>& logRatios, Order order,
+                      const LeftOut& leftOut) {
+    CellVerdict verdict{std::move(at), evaluateLogRatios(logRatios), ""};
     if (logRatios.empty() && leftOut.invalid == 0)
         verdict.reason = "no paired runs with a time above 0";
     else if (!logRatios.empty() && logRatios.size() < minimumPairs)
@@ -97,8 +97,8 @@ CellVerdict judged(std::vector<std::string> at, const std::vector<double>& logRa
     return verdict;
 }
 
-ColumnVerdict judgeColumn(const Suite& suite, const MatchedCells& matched, const std::string& column,
-                          const StoredRuns& runs) {
+ColumnVerdict evaluateColumn(const Suite& suite, const MatchedCells& matched, const std::string& column,
+                             const StoredRuns& runs) {
     ColumnVerdict verdict{column, {}, {}};
     const auto rounds = static_cast<std::size_t>(suite.repetitions);
     std::vector<double> sums(rounds, 0);
@@ -122,12 +122,12 @@ ColumnVerdict judgeColumn(const Suite& suite, const MatchedCells& matched, const
             }
         }
         if (!logRatios.empty()) ++measured;
-        verdict.cells.push_back(judged(pair.at, logRatios, suite.order, leftOut));
+        verdict.cells.push_back(evaluated(pair.at, logRatios, suite.order, leftOut));
     }
     std::vector<double> means;
     for (std::size_t round = 0; round < rounds; ++round)
         if (measured > 0 && counts[round] == measured) means.push_back(sums[round] / static_cast<double>(measured));
-    verdict.overall = judged(std::vector<std::string>(matched.axes.size()), means, suite.order, leftOutOfAny);
+    verdict.overall = evaluated(std::vector<std::string>(matched.axes.size()), means, suite.order, leftOutOfAny);
     return verdict;
 }
 
@@ -201,7 +201,7 @@ std::vector<ComparisonResult> suiteVerdicts(const Suite& suite, const StoredRuns
         const MatchedCells matched = matchCells(suite, comparison);
         ComparisonResult result{comparison.of.label, comparison.with.label, matched.axes, {}};
         for (const std::string& column : comparison.columns)
-            result.columns.push_back(judgeColumn(suite, matched, column, runs));
+            result.columns.push_back(evaluateColumn(suite, matched, column, runs));
         results.push_back(std::move(result));
     }
     return results;

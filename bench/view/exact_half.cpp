@@ -21,19 +21,19 @@ ExactHalf::ExactHalf(gpu::Device& device, int width, int height)
       depth_(gpu::Texture::make2D(device, "depth of the ground truth", gpu::Format::r32F, width, height)) {}
 
 void ExactHalf::draw(const DrawnMoment& drawn, const scene::Scene& scene, const scene::View& view, const Puffs& dust,
-                     std::string whyNotJudged) {
+                     std::string whyNotEvaluated) {
     const std::int64_t start = steadyNow();
     ReferenceStore none;
     const ExactMoment exact = exactMoment(scene, view, drawn, dust, false, std::nullopt, none);
-    whyNotJudged_ = std::move(whyNotJudged);
-    judged_ = {
+    whyNotEvaluated_ = std::move(whyNotEvaluated);
+    evaluated_ = {
         {}, opaque(pictures::over(drawn.layer, drawn.scene)), opaque(pictures::over(exact.layer, drawn.scene)), {}};
     try {
-        if (whyNotJudged_.empty()) judged_ = comparePictures(drawn, exact);
+        if (whyNotEvaluated_.empty()) evaluated_ = comparePictures(drawn, exact);
     } catch (const InputError& error) {  // the picture contains values that are not finite
-        whyNotJudged_ = error.what();
+        whyNotEvaluated_ = error.what();
     }
-    upload(judged_.reference, display_);
+    upload(evaluated_.reference, display_);
     upload(drawn.scene, scene_);
     upload(exact.layer, layer_);
     uploadRows(drawn.sceneDepth, depth_);

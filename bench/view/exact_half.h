@@ -18,22 +18,22 @@ class ExactHalf {
     ExactHalf(gpu::Device& device, int width, int height);
 
     /// Draws the dust, given in its colours without light, in front of the method's scene and compares the method's
-    /// picture with it. `whyNotJudged`: why metrics would be meaningless; if empty, they are computed.
+    /// picture with it. `whyNotEvaluated`: why metrics would be meaningless; if empty, they are computed.
     void draw(const DrawnMoment& drawn, const scene::Scene& scene, const scene::View& view, const Puffs& dust,
-              std::string whyNotJudged);
+              std::string whyNotEvaluated);
 
     [[nodiscard]] HalfTextures textures() const { return {display_, scene_, layer_, depth_}; }
     /// The ground truth and the method's picture: linear light, opaque.
-    [[nodiscard]] const JudgedMoment& judged() const { return judged_; }
-    /// Why `judged` has no metrics; empty if it has.
-    [[nodiscard]] const std::string& whyNotJudged() const { return whyNotJudged_; }
+    [[nodiscard]] const EvaluatedMoment& evaluated() const { return evaluated_; }
+    /// Why `evaluated` has no metrics; empty if it has.
+    [[nodiscard]] const std::string& whyNotEvaluated() const { return whyNotEvaluated_; }
     /// Duration of the last draw(), including metrics.
     [[nodiscard]] double seconds() const { return seconds_; }
 
  private:
     gpu::Texture display_, scene_, layer_, depth_;
-    JudgedMoment judged_;
-    std::string whyNotJudged_;
+    EvaluatedMoment evaluated_;
+    std::string whyNotEvaluated_;
     double seconds_ = 0;
 };
 

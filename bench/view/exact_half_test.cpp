@@ -47,13 +47,13 @@ TEST(ExactHalf, GivesTheNumbersAndThePictureOfAJudgedRun) {
         ViewSession session(state, device);
         while (session.stepsToGo() > 0) session.step();
         session.drawExact();
-        ASSERT_EQ(session.exact().whyNotJudged(), "");
-        shown = session.exact().judged().metrics.values;
+        ASSERT_EQ(session.exact().whyNotEvaluated(), "");
+        shown = session.exact().evaluated().metrics.values;
         reference = session.image(Half::b);
     }
     RunSpec spec = runOf(state, Half::a);
     spec.imagesEvery = 0;
-    spec.judging.emplace().moments = FrameRange{0, 4, 1};
+    spec.metricPlan.emplace().moments = FrameRange{0, 4, 1};
     (void)measureRun(spec, folder.path(), {}, [](std::string_view, std::int64_t, std::int64_t) {});
     const auto table = files::CsvTable::parseFile(folder.path() / "metrics.csv");
     const auto row = table.rows() - 1;
@@ -82,31 +82,31 @@ TEST_F(ExactInViewer, IsDrawnAtRestAndNeverOfAnotherMomentThanA) {
     Viewer viewer(small(methods().front().id), device_, folder_.path());
     viewer.advance(1e9);
     for (int n = 0; n < 3; ++n) viewer.advance();
-    EXPECT_FALSE(viewer.session().isJudged());
-    EXPECT_EQ(viewer.session().isCurrent(Half::b), isBuilt(liveTruth));
-    EXPECT_EQ(viewer.settingsNow().shown, isBuilt(liveTruth) ? Shown::wipe : Shown::a);
+    EXPECT_FALSE(viewer.session().isEvaluated());
+    EXPECT_EQ(viewer.session().isCurrent(Half::b), isBuilt(groundTruthMethod));
+    EXPECT_EQ(viewer.settingsNow().shown, isBuilt(groundTruthMethod) ? Shown::wipe : Shown::a);
     EXPECT_THAT(viewer.stamp(), HasSubstr("frame 3: A " + methods().front().id));
-    EXPECT_EQ(viewer.stamp().find("| B exact") != std::string::npos, isBuilt(liveTruth));
+    EXPECT_EQ(viewer.stamp().find("| B exact") != std::string::npos, isBuilt(groundTruthMethod));
     viewer.press(Key::space, false);
     viewer.advance();
     viewer.advance();
-    ASSERT_TRUE(viewer.session().isJudged());
+    ASSERT_TRUE(viewer.session().isEvaluated());
     EXPECT_EQ(viewer.settingsNow().shown, Shown::wipe);
     EXPECT_THAT(viewer.stamp(), HasSubstr("| B exact"));
     EXPECT_GT(viewer.session().exact().seconds(), 0);
     viewer.turnCamera(0.1, 0);
     viewer.advance();  // the camera has just moved
-    EXPECT_FALSE(viewer.session().isJudged());
+    EXPECT_FALSE(viewer.session().isEvaluated());
     viewer.advance();
-    EXPECT_TRUE(viewer.session().isJudged());
+    EXPECT_TRUE(viewer.session().isEvaluated());
     viewer.press(Key::period, false);
     viewer.advance();
-    EXPECT_FALSE(viewer.session().isJudged());
+    EXPECT_FALSE(viewer.session().isEvaluated());
 }
 
 /// While the world moves, a method draws the ground truth in half B.
 TEST_F(ExactInViewer, IsDrawnLiveByTheTruthAsAMethodAndIsTheJudgesPictureTo1e5) {
-    if (!isBuilt(liveTruth) || !isBuilt("billboard")) GTEST_SKIP() << "no truth as a method, or no billboards";
+    if (!isBuilt(groundTruthMethod) || !isBuilt("billboard")) GTEST_SKIP() << "no truth as a method, or no billboards";
     ViewState state = small("billboard");
     state.world["camera"] = "fixed";  // a camera that moves would be listed for anyway
     state.frame = 3;
@@ -118,10 +118,10 @@ TEST_F(ExactInViewer, IsDrawnLiveByTheTruthAsAMethodAndIsTheJudgesPictureTo1e5) 
         while (session.stepsToGo() > 0);
         session.draw();
         ASSERT_TRUE(session.isCurrent(Half::b));
-        ASSERT_FALSE(session.isJudged());
+        ASSERT_FALSE(session.isEvaluated());
         const pictures::Image live = session.image(Half::b), a = session.image(Half::a);
         session.drawExact();
-        ASSERT_TRUE(session.isJudged());
+        ASSERT_TRUE(session.isEvaluated());
         const pictures::Image exact = session.image(Half::b);
         for (std::size_t i = 0; i < exact.pixels.size(); ++i)
             for (int channel = 0; channel < 3; ++channel) {
@@ -142,12 +142,12 @@ TEST_F(ExactInViewer, IsDrawnOnDemandAndEveryFrameIfAskedFor) {
     viewer.press(Key::e, false);
     EXPECT_TRUE(viewer.paused);
     viewer.advance();
-    EXPECT_TRUE(viewer.session().isJudged());
+    EXPECT_TRUE(viewer.session().isEvaluated());
     viewer.paused = false;
     viewer.exactEveryFrame = true;
     for (int n = 0; n < 3; ++n) {
         viewer.advance();
-        ASSERT_TRUE(viewer.session().isJudged());
+        ASSERT_TRUE(viewer.session().isEvaluated());
         EXPECT_THAT(viewer.stamp(), HasSubstr(fmt::format("frame {}:", viewer.session().frame())));
     }
     ViewState state = viewer.state();
@@ -185,8 +185,8 @@ TEST_F(ExactInViewer, GivesNoNumbersToAMethodWithASimulationOfItsOwn) {
     viewer.press(Key::e, false);
     viewer.advance();
     ASSERT_TRUE(viewer.session().isCurrent(Half::b));
-    EXPECT_THAT(viewer.session().exact().whyNotJudged(), HasSubstr("runs its own simulation"));
-    EXPECT_FALSE(viewer.session().exact().judged().metrics.values.of("psnr_db"));
+    EXPECT_THAT(viewer.session().exact().whyNotEvaluated(), HasSubstr("runs its own simulation"));
+    EXPECT_FALSE(viewer.session().exact().evaluated().metrics.values.of("psnr_db"));
     viewer.split.shown = Shown::flip;  // the pictures can still be compared
     viewer.advance();
     EXPECT_TRUE(viewer.maps().flipMean());

@@ -18,9 +18,9 @@ namespace dustbench::bench {
 namespace {
 
 Measured flipOf(const ViewSession& session) {
-    if (session.isExact(Half::b) && session.isJudged() && session.exact().whyNotJudged().empty()) {
-        const JudgedMoment& judged = session.exact().judged();
-        return {judged.metrics.values.of("flip"), judged.difference};
+    if (session.isExact(Half::b) && session.isEvaluated() && session.exact().whyNotEvaluated().empty()) {
+        const EvaluatedMoment& evaluated = session.exact().evaluated();
+        return {evaluated.metrics.values.of("flip"), evaluated.difference};
     }
     return flip(preparePicture(session.image(Half::b), "the picture of B"),
                 preparePicture(session.image(Half::a), "the picture of A"));

@@ -27,9 +27,9 @@ ComparedSide sideOf(const PlannedRun& cell) {
 }
 
 /// Reports the progress of the runs, and lets the window draw between them.
-class Teller : public ExecutionListener {
+class ProgressReporter : public ExecutionListener {
  public:
-    explicit Teller(const MeasurementHooks& hooks) : hooks_(hooks) {}
+    explicit ProgressReporter(const MeasurementHooks& hooks) : hooks_(hooks) {}
 
     void started(std::size_t position, std::size_t total, const PlannedRun& run, int repetitions, double eta) override {
         std::string progress = fmt::format("measuring: run {} of {}, {}, repetition {} of {}", position, total,
@@ -87,9 +87,9 @@ std::vector<std::string> measure(const Suite& suite, const std::filesystem::path
     execution.interrupted = [&] {
         return (hooks.cancelled && hooks.cancelled()) || (hooks.execution.interrupted && hooks.execution.interrupted());
     };
-    Teller teller(hooks);
+    ProgressReporter reporter(hooks);
     const auto plan = planRuns(suite);
-    const ExecutionResult result = execute(plan, suite.repetitions, results, execution, teller);
+    const ExecutionResult result = execute(plan, suite.repetitions, results, execution, reporter);
     if (result.aborted)
         return {fmt::format("measurement cancelled after {} of {} runs", result.done + result.skipped + result.failed,
                             plan.size())};
@@ -98,7 +98,7 @@ std::vector<std::string> measure(const Suite& suite, const std::filesystem::path
                            [&](const PlannedRun& cell) { return timesOf(cell, suite, results.runs()); });
     for (const ComparisonResult& comparison : suiteVerdicts(suite, results.runs()))
         for (std::string& sentence : conclusions(comparison)) sentences.push_back(std::move(sentence));
-    if (!teller.whyNot().empty()) sentences.push_back(teller.whyNot());
+    if (!reporter.whyNot().empty()) sentences.push_back(reporter.whyNot());
     sentences.push_back("results: " + folder.string());
     return sentences;
 }

@@ -49,7 +49,7 @@ class ShownMeasurement : public testing::Test {
             return std::vector<std::string>{
                 "/bin/sh", "-c", "cp \"$2\" \"$1/run.json\"", "sh", folder.string(), (made / id).string()};
         };
-        hooks.between = [this](const std::string& progress) { told_.push_back(progress); };
+        hooks.between = [this](const std::string& progress) { reported_.push_back(progress); };
         return hooks;
     }
     /// B takes half of A's time, with a scatter of a thousandth.
@@ -62,7 +62,7 @@ class ShownMeasurement : public testing::Test {
 
     TestFolder folder_;
     ViewState state_;
-    std::vector<std::string> told_;
+    std::vector<std::string> reported_;
 };
 
 TEST_F(ShownMeasurement, IsTheRunsOfTheLinesLongEnough) {
@@ -93,8 +93,8 @@ TEST_F(ShownMeasurement, EndsInAVerdictWithItsInterval) {
     EXPECT_THAT(sentences,
                 Contains(AllOf(HasSubstr("method_ms_median: B (octree_search) takes 0.44"), HasSubstr("FASTER"))));
     EXPECT_THAT(sentences, Contains(HasSubstr("A (billboard) takes 10.035 ms, 10.010 to 10.060 in 6 runs")));
-    EXPECT_EQ(told_.size(), 18u);
-    EXPECT_THAT(told_.back(), HasSubstr("run 18 of 18"));
+    EXPECT_EQ(reported_.size(), 18u);
+    EXPECT_THAT(reported_.back(), HasSubstr("run 18 of 18"));
     EXPECT_TRUE(fs::exists(out() / "summary.csv"));
     // Measured again, the old runs do not count.
     const auto again = measure(suite, out(), children(suite, [](const RunSpec& spec) {
@@ -141,7 +141,7 @@ TEST_F(ShownMeasurement, OfAViewerStartsWithTheNextFrame) {
     EXPECT_THAT(viewer.message(), HasSubstr("cannot start runs"));
     MeasurementHooks hooks = children(measurementOf(viewer.state()), half);
     hooks.between = [&](const std::string& progress) {
-        told_.push_back(progress);
+        reported_.push_back(progress);
         EXPECT_EQ(viewer.message(), progress);
     };
     viewer.setMeasurement(hooks);
@@ -149,7 +149,7 @@ TEST_F(ShownMeasurement, OfAViewerStartsWithTheNextFrame) {
     EXPECT_TRUE(viewer.measured().empty());
     viewer.advance();
     EXPECT_EQ(viewer.message(), "");
-    EXPECT_EQ(told_.size(), 18u);
+    EXPECT_EQ(reported_.size(), 18u);
     EXPECT_THAT(viewer.measured(), Contains(HasSubstr("FASTER")));
     ViewState alike = viewer.state();
     alike.b = alike.a;

@@ -53,7 +53,7 @@ void SplitView::draw(const HalfTextures& a, const HalfTextures& b, const SplitSe
     program_.set("region", glm::vec4(settings.origin, settings.extent));
     program_.set("size", glm::vec2(width, height));
     program_.set("divider", dividerOf(settings));
-    program_.set("beside", settings.shown == Shown::beside ? 1 : 0);
+    program_.set("sideBySide", settings.shown == Shown::sideBySide ? 1 : 0);
     program_.set("gain", settings.shown == Shown::difference ? settings.gain : 0.0f);
     program_.set("source", static_cast<int>(sourceOf(settings)));
     program_.set("exposure", std::exp2(settings.stops));

@@ -10,7 +10,7 @@ layout(binding = 7) uniform sampler2D depthB;
 uniform vec4 region;       // origin and extent of the visible part, shares of the pictures
 uniform vec2 size;         // of the target, pixels
 uniform float divider;     // share of the target's width: 1 shows only A, 0 only B
-uniform int beside;        // 1: A in the left half of the target, B in the right
+uniform int sideBySide;        // 1: A in the left half of the target, B in the right
 uniform float gain;        // of the difference; 0: none is shown
 uniform int source;        // 0 display, 1 light, 2 alpha, 3 depth, 4 faults
 uniform float exposure;    // factor on light
@@ -75,7 +75,7 @@ void main() {
     vec2 place = gl_FragCoord.xy / size;
     float beyond = gl_FragCoord.x - divider * size.x;
     bool isA = beyond < 0.0;
-    if (beside > 0) {
+    if (sideBySide > 0) {
         isA = place.x < 0.5;
         place.x = fract(2.0 * place.x);
     }
@@ -83,6 +83,6 @@ void main() {
     bool needsA = isA || gain > 0.0, needsB = !isA || gain > 0.0;
     vec3 a = needsA ? shown(displayA, sceneA, layerA, depthA, at) : vec3(0.0);
     vec3 b = needsB ? shown(displayB, sceneB, layerB, depthB, at) : vec3(0.0);
-    bool onLine = beside == 0 && divider > 0.0 && divider < 1.0 && abs(beyond) <= 1.0;
+    bool onLine = sideBySide == 0 && divider > 0.0 && divider < 1.0 && abs(beyond) <= 1.0;
     colour = vec4(gain > 0.0 ? clamp(0.5 + 0.5 * gain * (b - a), 0.0, 1.0) : onLine ? vec3(1.0) : isA ? a : b, 1.0);
 }

@@ -13,11 +13,11 @@
 namespace dustbench::bench {
 
 /// How the two pictures are combined. flip: FLIP's map between them.
-enum class Shown { a, b, wipe, beside, difference, flip };
+enum class Shown { a, b, wipe, sideBySide, difference, flip };
 inline constexpr Choices<Shown> shownChoices{{"A", Shown::a},
                                              {"B", Shown::b},
                                              {"wipe", Shown::wipe},
-                                             {"beside", Shown::beside},
+                                             {"beside", Shown::sideBySide},
                                              {"difference", Shown::difference},
                                              {"flip", Shown::flip}};
 

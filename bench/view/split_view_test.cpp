@@ -134,7 +134,7 @@ TEST_F(Split, RefusesPicturesOfTwoSizes) {
 TEST_F(Split, ShowsBothWholeSideBySide) {
     const gpu::Texture wide = gpu::Texture::make2D(device_, "wide", gpu::Format::rgba8, 2 * splitWidth, splitHeight);
     const gpu::Framebuffer target(device_, "wide", &wide, nullptr);
-    split_.draw(all(a_), all(b_), {Shown::beside, 0.2f}, nearMetres, target, 2 * splitWidth, splitHeight);
+    split_.draw(all(a_), all(b_), {Shown::sideBySide, 0.2f}, nearMetres, target, 2 * splitWidth, splitHeight);
     const pictures::Image a = draw::readBack(a_), b = draw::readBack(b_), image = draw::readBack(wide);
     for (int y = 0; y < splitHeight; ++y)
         for (int x = 0; x < splitWidth; ++x) {

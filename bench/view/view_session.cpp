@@ -85,7 +85,7 @@ void ViewSession::begin(const ViewState& state) {
         if (needsHost(state, which)) halves[indexOf(which)] = makeHalf(state, which, *world);
     // Hosts refer to their world, so they are destroyed first.
     halves_ = std::move(halves);
-    truth_ = {};
+    groundTruth_ = {};
     world_ = std::move(world);
     input_ = std::move(input);
     state_ = state;
@@ -94,7 +94,7 @@ void ViewSession::begin(const ViewState& state) {
     recording_ = {};
     ++moment_;
     next_ = -stepsBeforeWarmup(*world_) - state_.warmup;
-    makeTruth(state_);
+    makeGroundTruth(state_);
 }
 
 std::unique_ptr<World> ViewSession::makeWorld(const ViewState& state, std::shared_ptr<DrivingInput> input) const {
@@ -135,21 +135,22 @@ void ViewSession::replaceHalves(const ViewState& state) {
         if (!shown.sinceStart) updateHalf(shown);
     }
     if (!showsExact(state) || state.size != state_.size) exact_.reset();
-    makeTruth(state);
+    makeGroundTruth(state);
 }
 
 /// There is no live ground truth if A's method simulates its own dust. All methods with reliefs and lamps, which would
 /// be missing, do so. Nor is there one for dust of several colours without a GPU, because it takes seconds.
-void ViewSession::makeTruth(const ViewState& state) {
-    const bool isKnown = std::ranges::any_of(methods(), [](const MethodInfo& info) { return info.id == liveTruth; });
+void ViewSession::makeGroundTruth(const ViewState& state) {
+    const bool isKnown =
+        std::ranges::any_of(methods(), [](const MethodInfo& info) { return info.id == groundTruthMethod; });
     const bool isFast = world_->dust().uniformColour || !device_.isSoftware();
-    const bool isShown = showsExact(state) && isKnown && isFast && whyNotJudged({}, host(Half::a).method()).empty();
-    if (!isShown) truth_ = {};
-    if (!isShown || (truth_.host && state.size == state_.size)) return;
+    const bool isShown = showsExact(state) && isKnown && isFast && whyNotEvaluated({}, host(Half::a).method()).empty();
+    if (!isShown) groundTruth_ = {};
+    if (!isShown || (groundTruth_.host && state.size == state_.size)) return;
     ViewState alone = state;
-    alone.a = {liveTruth, {}};
-    truth_ = makeHalf(alone, Half::a, *world_);
-    if (frame() >= -state.warmup - stepsBeforeWarmup(*world_)) updateHalf(truth_);
+    alone.a = {groundTruthMethod, {}};
+    groundTruth_ = makeHalf(alone, Half::a, *world_);
+    if (frame() >= -state.warmup - stepsBeforeWarmup(*world_)) updateHalf(groundTruth_);
 }
 
 StageMs ViewSession::recordedMs() const {
@@ -180,7 +181,7 @@ void ViewSession::step() {
     // As in replay.h: a method is updated from the last step of the preroll on, or always if it requests that.
     for (ShownHalf& shown : halves_)
         if (shown.host && (frame() >= -state_.warmup - 1 || shown.host->method().wantsPreroll())) updateHalf(shown);
-    if (truth_.host && frame() >= -state_.warmup - 1) updateHalf(truth_);
+    if (groundTruth_.host && frame() >= -state_.warmup - 1) updateHalf(groundTruth_);
 }
 
 void ViewSession::draw(const ImageSize& size) {
@@ -192,9 +193,9 @@ void ViewSession::draw(const ImageSize& size) {
         shown.host->draw(shown.host->see(frame(), clock));
         shown.cost.draw = recordedMs();
     }
-    if (truth_.host) {
+    if (groundTruth_.host) {
         const StageClock untimed;
-        truth_.host->draw(truth_.host->see(frame(), untimed));
+        groundTruth_.host->draw(groundTruth_.host->see(frame(), untimed));
     }
     noteDrawn();
 }
@@ -202,7 +203,7 @@ void ViewSession::draw(const ImageSize& size) {
 void ViewSession::resizeHosts(const ImageSize& size) {
     for (ShownHalf& shown : halves_)
         if (shown.host) shown.host->resize(size.width, size.height);
-    if (truth_.host) truth_.host->resize(size.width, size.height);
+    if (groundTruth_.host) groundTruth_.host->resize(size.width, size.height);
     drawnSize_ = size;
 }
 
@@ -217,24 +218,24 @@ void ViewSession::drawExact() {
     MethodHost& host = *halves_[indexOf(Half::a)].host;
     const DrawnMoment drawn = host.drawn(host.see(frame(), untimed), false);
     if (!exact_) exact_ = std::make_unique<ExactHalf>(device_, state_.size.width, state_.size.height);
-    exact_->draw(drawn, world_->scene(), view(), world_->unlitDust(), whyNotJudged({}, host.method()));
+    exact_->draw(drawn, world_->scene(), view(), world_->unlitDust(), whyNotEvaluated({}, host.method()));
     exactMoment_ = moment_;
     noteDrawn();
 }
 
 bool ViewSession::isCurrent(Half half) const {
-    return isExact(half) ? isJudged() || truth_.host : hasHost(half);
+    return isExact(half) ? isEvaluated() || groundTruth_.host : hasHost(half);
 }
 
 HalfTextures ViewSession::textures(Half half) const {
-    if (isExact(half) && isJudged()) return exact_->textures();
-    const MethodHost& drawn = isExact(half) ? *truth_.host : host(half);
+    if (isExact(half) && isEvaluated()) return exact_->textures();
+    const MethodHost& drawn = isExact(half) ? *groundTruth_.host : host(half);
     return {drawn.display(), drawn.sceneColour(), drawn.layerColour(), drawn.sceneDepth()};
 }
 
 pictures::Image ViewSession::image(Half half) const {
-    if (isExact(half) && isJudged()) return exact_->judged().reference;
-    pictures::Image image = (isExact(half) ? *truth_.host : host(half)).picture();
+    if (isExact(half) && isEvaluated()) return exact_->evaluated().reference;
+    pictures::Image image = (isExact(half) ? *groundTruth_.host : host(half)).picture();
     for (glm::vec4& pixel : image.pixels) pixel.a = 1;
     return image;
 }

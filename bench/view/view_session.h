@@ -72,8 +72,8 @@ class ViewSession {
     /// The half shows the moment that was drawn last: false for the ground truth of an earlier one, or none.
     [[nodiscard]] bool isCurrent(Half half) const;
     /// Half B is the ground truth of the moment that was drawn last, with metrics. Half B may be current without that,
-    /// if `liveTruth` has drawn it.
-    [[nodiscard]] bool isJudged() const { return exact_ && exactMoment_ == drawnMoment_; }
+    /// if `groundTruthMethod` has drawn it.
+    [[nodiscard]] bool isEvaluated() const { return exact_ && exactMoment_ == drawnMoment_; }
     /// The world or the state has changed since the last draw.
     [[nodiscard]] bool isBehind() const { return drawnMoment_ != moment_; }
 
@@ -92,7 +92,7 @@ class ViewSession {
     [[nodiscard]] const MethodHost& host(Half half) const { return *halves_.at(indexOf(half)).host; }
     /// Visits the volume that a half's method shows.
     void volume(Half half, VolumeVisitor& visitor);
-    /// The ground truth in half B; isJudged() must be true.
+    /// The ground truth in half B; isEvaluated() must be true.
     [[nodiscard]] const ExactHalf& exact() const { return *exact_; }
     [[nodiscard]] HalfCost cost(Half half) const { return halves_.at(indexOf(half)).cost; }
     /// Duration of the last step of the world, which both halves share: input and simulation.
@@ -123,7 +123,7 @@ class ViewSession {
     [[nodiscard]] ShownHalf makeHalf(const ViewState& state, Half half, const World& world) const;
     void replaceHalves(const ViewState& state);
     void updateHalf(ShownHalf& shown);
-    void makeTruth(const ViewState& state);
+    void makeGroundTruth(const ViewState& state);
     void resizeHosts(const ImageSize& size);
     void noteDrawn();
     [[nodiscard]] StageMs recordedMs() const;
@@ -134,7 +134,8 @@ class ViewSession {
     std::unique_ptr<World> world_;
     Halves halves_;
     std::unique_ptr<ExactHalf> exact_;
-    ShownHalf truth_;  ///< draws with liveTruth; empty if half B is a method, or if A shows dust of its own
+    ShownHalf
+        groundTruth_;  ///< draws with groundTruthMethod; empty if half B is a method, or if A shows dust of its own
     ControlRecording recording_;
     std::int64_t next_ = 0;
     std::int64_t moment_ = 0, drawnMoment_ = -1, exactMoment_ = -1;

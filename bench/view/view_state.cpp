@@ -22,7 +22,7 @@ ParameterTexts necessary(const MethodInfo& method, const ParameterTexts& given) 
     return needed;
 }
 
-ParameterTexts together(const ParameterTexts& world, const ParameterTexts& method) {
+ParameterTexts merged(const ParameterTexts& world, const ParameterTexts& method) {
     ParameterTexts all = world;
     for (const auto& [name, value] : method) all[name] = value;
     return all;
@@ -68,7 +68,7 @@ RunSpec runOf(const ViewState& state, Half which) {
     spec.cameraPath = state.cameraPath;
     spec.dust = state.dust;
     spec.dustColumns = state.dustColumns;
-    spec.parameters = canonicalParameters(method, together(state.world, shown.parameters));
+    spec.parameters = canonicalParameters(method, merged(state.world, shown.parameters));
     spec.frames = state.frame + 1;
     spec.warmup = state.warmup;
     spec.size = state.size;

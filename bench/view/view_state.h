@@ -17,7 +17,7 @@ enum class Half { a, b };
 /// As half B's method: the ground truth of the shared dust in half A's scene. No run draws it.
 inline constexpr const char* exactPicture = "exact";
 /// The method that draws the ground truth to within 1e-5 while things move, if this build has it.
-inline constexpr const char* liveTruth = "exact_tiles";
+inline constexpr const char* groundTruthMethod = "exact_tiles";
 
 /// A method and the parameters that are set; the others have their defaults.
 struct HalfState {

@@ -150,7 +150,7 @@ TEST_F(Paced, TheExactPictureStandsBesideAFullOne) {
     for (int n = 0; n < 3; ++n) {
         viewer_->advance();
         EXPECT_EQ(drawn(), full);
-        EXPECT_TRUE(viewer_->session().isJudged());
+        EXPECT_TRUE(viewer_->session().isEvaluated());
         EXPECT_EQ(viewer_->message(), "");
     }
     viewer_->press(Key::space, false);

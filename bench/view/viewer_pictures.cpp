@@ -19,14 +19,14 @@ std::string nameOf(const ViewState& state, Half half) {
 
 void Viewer::makeImage(Shown shown) {
     ImageSize size = session_.state().size;
-    if (shown == Shown::beside) size.width *= 2;
+    if (shown == Shown::sideBySide) size.width *= 2;
     if (image_.width() == size.width && image_.height() == size.height) return;
     image_ = gpu::Texture::make2D(device_, "view", gpu::Format::rgba8, size.width, size.height);
     target_ = gpu::Framebuffer(device_, "view", &image_, nullptr);
 }
 
 bool Viewer::draw() {
-    const bool lacksExact = session_.isExact(Half::b) && !session_.isJudged() && paused;
+    const bool lacksExact = session_.isExact(Half::b) && !session_.isEvaluated() && paused;
     const ImageSize size = sizeNow();
     const bool isAsked =
         mustDraw_ || exactAsked_ || lacksExact || !(settingsNow() == composed_) || !(size == session_.drawnSize());
@@ -43,7 +43,7 @@ bool Viewer::draw() {
 bool Viewer::isPaced() const {
     const bool isMap = split.shown == Shown::flip || split.channel == Channel::overdraw ||
                        split.channel == Channel::outlines || split.channel == Channel::faults;
-    const bool isExact = session_.isExact(Half::b) && (exactEveryFrame || session_.isJudged());
+    const bool isExact = session_.isExact(Half::b) && (exactEveryFrame || session_.isEvaluated());
     return keepsPace && !isMap && !isExact && !drawingPaused;
 }
 
@@ -69,7 +69,7 @@ std::string Viewer::drawnRemark() const {
 void Viewer::drawExact() {
     const bool isAtRest = paused && session_.drawnMoment() == momentBefore_;
     momentBefore_ = session_.drawnMoment();
-    if (!session_.isExact(Half::b) || session_.isJudged() || session_.stepsToGo() > 0) return;
+    if (!session_.isExact(Half::b) || session_.isEvaluated() || session_.stepsToGo() > 0) return;
     if (isAtRest || exactEveryFrame || std::exchange(exactAsked_, false)) session_.drawExact();
 }
 
@@ -124,7 +124,7 @@ PixelValue Viewer::valueAt(glm::vec2 place) {
     const ImageSize size = session_.state().size;
     glm::vec2 at(place.x, 1 - place.y);
     bool isB = settings.shown == Shown::b || (settings.shown == Shown::wipe && at.x >= settings.divider);
-    if (settings.shown == Shown::beside) {
+    if (settings.shown == Shown::sideBySide) {
         isB = at.x >= 0.5f;
         at.x = glm::fract(2 * at.x);
     }
@@ -157,7 +157,7 @@ glm::vec3 Viewer::onePixel(Half half, glm::ivec2 pixel, const SplitSettings& set
 
 void Viewer::zoom(glm::vec2 place, double factor) {
     const ImageSize size = session_.state().size;
-    const glm::vec2 at(split.shown == Shown::beside ? glm::fract(2 * place.x) : place.x, 1 - place.y);
+    const glm::vec2 at(split.shown == Shown::sideBySide ? glm::fract(2 * place.x) : place.x, 1 - place.y);
     const glm::vec2 minimum = glm::min(minimumPixels / glm::vec2(size.width, size.height), glm::vec2(1));
     const glm::vec2 fixed = split.origin + split.extent * at;
     const float extent = std::clamp(split.extent.x / static_cast<float>(factor), std::max(minimum.x, minimum.y), 1.0f);

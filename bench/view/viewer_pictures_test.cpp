@@ -51,7 +51,7 @@ class ViewerPictures : public testing::Test {
 
 TEST_F(ViewerPictures, SideBySideIsTwiceAsWideAndSaved) {
     open(methods().front().id, methods().back().id);
-    viewer_->split.shown = Shown::beside;
+    viewer_->split.shown = Shown::sideBySide;
     viewer_->advance();
     const pictures::Image image = shown(), a = pictureOf(Half::a), b = pictureOf(Half::b);
     ASSERT_EQ(image.width, 128);
@@ -133,7 +133,7 @@ TEST_F(ViewerPictures, TheValueUnderTheCursorIsThatOfThePictureThere) {
     open(methods().front().id, methods().back().id);
     std::mt19937 random(11);
     std::uniform_real_distribution<float> share(0, 1);
-    for (const Shown view : {Shown::a, Shown::b, Shown::wipe, Shown::beside}) {
+    for (const Shown view : {Shown::a, Shown::b, Shown::wipe, Shown::sideBySide}) {
         viewer_->split = {};
         viewer_->split.shown = view;
         for (int n = 0; n < 12; ++n) {

@@ -317,14 +317,14 @@ TEST_F(ViewerTest, SavesTheLightOfThePictureBesideIt) {
     Viewer viewer(state, device_, saved());
     viewer.paused = true;
     viewer.advance(1e9);
-    for (const Shown shown : {Shown::a, Shown::b, Shown::beside}) {
+    for (const Shown shown : {Shown::a, Shown::b, Shown::sideBySide}) {
         viewer.split.shown = shown;
         viewer.split.stops = 1;  // only of the view
         viewer.advance();
         viewer.press(Key::p, false);
         const pictures::Image light = pictures::readImage(saved() / "f000000.exr");
         const pictures::Image a = viewer.session().image(Half::a), b = viewer.session().image(Half::b);
-        ASSERT_EQ(light.width, shown == Shown::beside ? 128 : 64);
+        ASSERT_EQ(light.width, shown == Shown::sideBySide ? 128 : 64);
         for (int y = 0; y < light.height; ++y)
             for (int x = 0; x < light.width; ++x) {
                 const bool isB = shown == Shown::b || x >= 64;

@@ -73,7 +73,7 @@ void AdaptiveTransparency::draw(const Frame& frame, gpu::Layer& layer) {
 }
 
 void AdaptiveTransparency::report(const Frame&, Facts& facts) const {
-    facts.tell("bits_per_pixel", static_cast<double>(nodes_ * bitsPerNode));
+    facts.set("bits_per_pixel", static_cast<double>(nodes_ * bitsPerNode));
 }
 
 MethodInfo describe() {

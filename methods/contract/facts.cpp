@@ -19,7 +19,7 @@ bool Facts::wants(std::string_view name) const {
     return entries_[indexOf(name)].info->over == over_;
 }
 
-void Facts::tell(std::string_view name, FactValue value) {
+void Facts::set(std::string_view name, FactValue value) {
     Entry& entry = entries_[indexOf(name)];
     if (entry.info->over == over_) entry.value = value;
 }

@@ -48,7 +48,7 @@ class DUSTBENCH_API Facts {
     /// False if the fact would be discarded, so that a method can skip computing it.
     [[nodiscard]] bool wants(std::string_view name) const;
     /// Throws std::logic_error for an undeclared name. Discards facts that are not wanted.
-    void tell(std::string_view name, FactValue value);
+    void set(std::string_view name, FactValue value);
 
     /// Clears all values.
     void clear();

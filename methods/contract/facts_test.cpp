@@ -14,15 +14,15 @@ TEST(Facts, AreKeptOfTheMomentsThatTheyAreDeclaredFor) {
     Facts ofFrame(declared, FactOver::maximumOfFrames);
     EXPECT_TRUE(ofFrame.wants("clipped"));
     EXPECT_FALSE(ofFrame.wants("mass_kept"));
-    ofFrame.tell("clipped", std::int64_t{7});
-    ofFrame.tell("mass_kept", 0.5);
+    ofFrame.set("clipped", std::int64_t{7});
+    ofFrame.set("mass_kept", 0.5);
     EXPECT_EQ(ofFrame.value("clipped"), FactValue(std::int64_t{7}));
     EXPECT_EQ(ofFrame.value("mass_kept"), std::nullopt);
 
     Facts atEnd(declared, FactOver::lastFrame);
     EXPECT_FALSE(atEnd.wants("clipped"));
     EXPECT_EQ(atEnd.value("mass_kept"), std::nullopt) << "not told yet";
-    atEnd.tell("mass_kept", 0.5);
+    atEnd.set("mass_kept", 0.5);
     EXPECT_EQ(atEnd.value("mass_kept"), FactValue(0.5));
     atEnd.clear();
     EXPECT_EQ(atEnd.value("mass_kept"), std::nullopt);
@@ -30,7 +30,7 @@ TEST(Facts, AreKeptOfTheMomentsThatTheyAreDeclaredFor) {
 
 TEST(Facts, RefuseWhatWasNotDeclared) {
     Facts facts(declared, FactOver::lastFrame);
-    EXPECT_THROW(facts.tell("mass_lost", 0.5), std::logic_error);
+    EXPECT_THROW(facts.set("mass_lost", 0.5), std::logic_error);
     EXPECT_THROW(static_cast<void>(facts.wants("mass_lost")), std::logic_error);
 }
 

@@ -54,11 +54,11 @@ struct Eye {
 struct Slopes {
     double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
 };
-Slopes slopesOf(double aside, double ahead, double reach) {
+Slopes slopesOf(double slopesX, double ahead, double reach) {
     if (!(ahead > reach)) return {};
-    const double root = reach * std::sqrt(aside * aside + ahead * ahead - reach * reach);
+    const double root = reach * std::sqrt(slopesX * slopesX + ahead * ahead - reach * reach);
     const double scale = 1 / ((ahead - reach) * (ahead + reach));
-    return {(aside * ahead - root) * scale, (aside * ahead + root) * scale};
+    return {(slopesX * ahead - root) * scale, (slopesX * ahead + root) * scale};
 }
 
 /// Tiles between two image positions in pixels.
@@ -99,9 +99,9 @@ void PuffTiles::project(const Puffs& dust, const scene::View& view, double toler
         const double extent = sigmasAlongRay * s;
         const glm::dvec3 c = eye.fromWorld(glm::dvec3(dust.position(i)));
         if (c.z < -reach) continue;
-        const Slopes aside = slopesOf(c.x, c.z, reach), upwards = slopesOf(c.y, c.z, reach);
-        const auto [firstColumn, endColumn] = tilesBetween(eye.pixelX(aside.low), eye.pixelX(aside.high), columns_);
-        const auto [firstRow, endRow] = tilesBetween(eye.pixelY(upwards.low), eye.pixelY(upwards.high), rows_);
+        const Slopes slopesX = slopesOf(c.x, c.z, reach), slopesY = slopesOf(c.y, c.z, reach);
+        const auto [firstColumn, endColumn] = tilesBetween(eye.pixelX(slopesX.low), eye.pixelX(slopesX.high), columns_);
+        const auto [firstRow, endRow] = tilesBetween(eye.pixelY(slopesY.low), eye.pixelY(slopesY.high), rows_);
         if (firstColumn >= endColumn || firstRow >= endRow) continue;
 
         const double distance = glm::length(c);

@@ -66,6 +66,6 @@ Foot footAroundEye(Puff puff, Ray ray) {
 
 float depthAroundEye(Puff puff, Ray ray) {
     vec3 direction = vec3(ray.slopes, 1.0) / ray.stretch, centre = puff.pixel.xyz;
-    vec3 beside = centre - dot(centre, direction) * direction;
-    return exp2(puff.optics.x - puff.optics.y * dot(beside, beside));
+    vec3 perpendicular = centre - dot(centre, direction) * direction;
+    return exp2(puff.optics.x - puff.optics.y * dot(perpendicular, perpendicular));
 }

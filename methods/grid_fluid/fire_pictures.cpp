@@ -202,8 +202,8 @@ double piecesSeen(const Picture& picture, const std::vector<Flake>& pieces) {
         for (int j = -1; j <= 1; ++j)
             for (int i = -1; i <= 1; ++i) {
                 const bool before = j < 0 || (j == 0 && i < 0), itself = j == 0 && i == 0;
-                const double beside = alphaAt(x + i, y + j);
-                if (before ? beside >= alpha : !itself && beside > alpha) return false;
+                const double neighbour = alphaAt(x + i, y + j);
+                if (before ? neighbour >= alpha : !itself && neighbour > alpha) return false;
             }
         return alpha > minimumAlpha;
     };

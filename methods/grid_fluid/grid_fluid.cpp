@@ -270,18 +270,17 @@ std::optional<double> GridFluid::massLost() const {
 }
 
 void GridFluid::report(const Frame& frame, Facts& facts) const {
-    facts.tell("flow_speed_max", extremes_.speedMetresPerSecond);
-    facts.tell("flow_cells_per_step_max", extremes_.cellsPerStep);
-    facts.tell("flow_divergence_max", extremes_.divergencePerStep);
-    if (solvesPressure()) facts.tell("pressure_unsolved", extremes_.unsolvedSteps);
-    if (facts.wants("flow_divergence"))
-        facts.tell("flow_divergence", static_cast<double>(solver_->divergencePerStep()));
-    if (facts.wants("flow_noise_speed")) facts.tell("flow_noise_speed", noiseOf(flow::velocityY));
-    if (facts.wants("flow_noise_density")) facts.tell("flow_noise_density", noiseOf(flow::density));
+    facts.set("flow_speed_max", extremes_.speedMetresPerSecond);
+    facts.set("flow_cells_per_step_max", extremes_.cellsPerStep);
+    facts.set("flow_divergence_max", extremes_.divergencePerStep);
+    if (solvesPressure()) facts.set("pressure_unsolved", extremes_.unsolvedSteps);
+    if (facts.wants("flow_divergence")) facts.set("flow_divergence", static_cast<double>(solver_->divergencePerStep()));
+    if (facts.wants("flow_noise_speed")) facts.set("flow_noise_speed", noiseOf(flow::velocityY));
+    if (facts.wants("flow_noise_density")) facts.set("flow_noise_density", noiseOf(flow::density));
     if (facts.wants("mass_lost"))
-        if (const auto lost = massLost()) facts.tell("mass_lost", *lost);
+        if (const auto lost = massLost()) facts.set("mass_lost", *lost);
     if (!facts.wants("mass_kept")) return;
-    if (const auto kept = massKept(frame.dust)) facts.tell("mass_kept", *kept);
+    if (const auto kept = massKept(frame.dust)) facts.set("mass_kept", *kept);
 }
 
 double GridFluid::noiseOf(flow::Lane lane) const {

@@ -117,7 +117,7 @@ void LinkedList::report(const Frame&, Facts& facts) const {
     if (width_ == 0) return;
     const double pixels = static_cast<double>(width_) * height_;
     const double fragmentBits = 8.0 * (linkBytes + valueBytes);
-    facts.tell("bits_per_pixel", 8.0 * headBytes + fragmentBits * static_cast<double>(found_) / pixels);
+    facts.set("bits_per_pixel", 8.0 * headBytes + fragmentBits * static_cast<double>(found_) / pixels);
 }
 
 MemoryReport LinkedList::memory() const {

@@ -196,7 +196,7 @@ void MomentOit::report(const Frame&, Facts& facts) const {
     std::size_t bytes = gpu::bytesPerTexel(gpu::Format::rgba32F);  // weighted colours
     for (const gpu::Format format : momentFormats(settings_.kind)) bytes += gpu::bytesPerTexel(format);
     if (isQuantised()) bytes += storedBytes(settings_.kind);
-    facts.tell("bits_per_pixel", 8.0 * static_cast<double>(bytes));
+    facts.set("bits_per_pixel", 8.0 * static_cast<double>(bytes));
 }
 
 MemoryReport MomentOit::memory() const {

@@ -72,7 +72,7 @@ void MultiLayer::draw(const Frame& frame, gpu::Layer& layer) {
 }
 
 void MultiLayer::report(const Frame&, Facts& facts) const {
-    facts.tell("bits_per_pixel", static_cast<double>(layers_ * bitsPerLayer));
+    facts.set("bits_per_pixel", static_cast<double>(layers_ * bitsPerLayer));
 }
 
 MethodInfo describe() {

@@ -107,7 +107,7 @@ std::size_t OffscreenParticles::targetBytes() const {
 }
 
 void OffscreenParticles::report(const Frame& frame, Facts& facts) const {
-    facts.tell("bits_per_pixel", 8 * static_cast<double>(targetBytes()) / frame.view.width / frame.view.height);
+    facts.set("bits_per_pixel", 8 * static_cast<double>(targetBytes()) / frame.view.width / frame.view.height);
 }
 
 MemoryReport OffscreenParticles::memory() const {

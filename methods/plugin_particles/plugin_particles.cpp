@@ -212,13 +212,13 @@ void PluginParticles::report(const Frame&, Facts& facts) const {
     std::int64_t all = 0;
     for (std::size_t i = 0; i < systems_.size(); ++i) {
         const auto alive = static_cast<std::int64_t>(systems_[i].particles.store().size());
-        if (i < countedSystems) facts.tell(aliveFact(i), alive);
+        if (i < countedSystems) facts.set(aliveFact(i), alive);
         all += alive;
     }
-    facts.tell("alive_max", all);
+    facts.set("alive_max", all);
     if (askedFor_ > 0)
-        facts.tell("alive_deviation", static_cast<double>(all - askedFor_) / std::sqrt(static_cast<double>(askedFor_)));
-    facts.tell("systems", static_cast<std::int64_t>(systems_.size()));
+        facts.set("alive_deviation", static_cast<double>(all - askedFor_) / std::sqrt(static_cast<double>(askedFor_)));
+    facts.set("systems", static_cast<std::int64_t>(systems_.size()));
 }
 
 MemoryReport PluginParticles::memory() const {

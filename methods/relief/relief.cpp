@@ -156,12 +156,12 @@ void Relief::report(const Frame&, Facts& facts) const {
         takenOff += relief.surface().takenOffVolume();
         laidOn += relief.surface().laidOnVolume();
     }
-    facts.tell("hits", static_cast<std::int64_t>(hits));
-    facts.tell("worn_share", shareOf(takenOff, initial));
+    facts.set("hits", static_cast<std::int64_t>(hits));
+    facts.set("worn_share", shareOf(takenOff, initial));
     if (!facts.wants("mass_error")) return;
     for (const LivingRelief& relief : reliefs_) present += relief.surface().presentVolume();
     const std::uint64_t expected = initial - takenOff + laidOn;
-    facts.tell("mass_error", shareOf(std::max(present, expected) - std::min(present, expected), initial));
+    facts.set("mass_error", shareOf(std::max(present, expected) - std::min(present, expected), initial));
 }
 
 MemoryReport Relief::memory() const {

@@ -71,7 +71,7 @@ void StochasticTransparency::draw(const Frame& frame, gpu::Layer& layer) {
 
 void StochasticTransparency::report(const Frame&, Facts& facts) const {
     const std::int64_t sums = settings_.alphaCorrection ? 32 * 5 : 0;
-    facts.tell("bits_per_pixel", std::int64_t{32} * settings_.samples + sums);
+    facts.set("bits_per_pixel", std::int64_t{32} * settings_.samples + sums);
 }
 
 MemoryReport StochasticTransparency::memory() const {

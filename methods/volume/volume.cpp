@@ -44,8 +44,8 @@ void Volume::volume(const Frame& frame, VolumeVisitor& visitor) const {
 
 void Volume::report(const Frame& frame, Facts& facts) const {
     const double beyond = secondsOf(frame) - storage_->seconds();
-    facts.tell("volume_held", storage_->isStill() || beyond <= volumes::sameMomentSeconds ? 0.0 : beyond);
-    facts.tell("volume_mass", storage_->massSquareMetres());
+    facts.set("volume_held", storage_->isStill() || beyond <= volumes::sameMomentSeconds ? 0.0 : beyond);
+    facts.set("volume_mass", storage_->massSquareMetres());
 }
 
 namespace {

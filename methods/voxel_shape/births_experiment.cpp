@@ -42,17 +42,17 @@ class NewbornCount final : public VolumeVisitor {
 
 }  // namespace
 
-BirthReport driveThroughWalls(ExperimentContext& context, bool solidsAreTold, double seconds) {
+BirthReport driveThroughWalls(ExperimentContext& context, bool solidsAreKnown, double seconds) {
     // The dust of the wheels is irrelevant here: a few particles suffice.
     const auto world = context.world(walls, {{"particles", "10"}, {"preroll", "0"}}, width, height);
-    scene::Scene told = world->scene();
-    if (!solidsAreTold) {
-        told.solids.clear();
-        told.solidPoses.clear();
+    scene::Scene known = world->scene();
+    if (!solidsAreKnown) {
+        known.solids.clear();
+        known.solidPoses.clear();
     }
     const MethodInfo info = voxel_shape::describe();
     const std::unique_ptr<Method> shape = info.create(ParameterValues(info.parameters));
-    shape->prepare(told, world->setup(), context.device());
+    shape->prepare(known, world->setup(), context.device());
     NewbornCount newborn(world->scene());
     for (double driven = 0; driven < seconds;) {
         const Frame frame = world->step();
@@ -69,10 +69,10 @@ ExperimentInfo describe() {
     info.source = "JuckelBeckhaus2007";
     info.run = [](ExperimentContext& context) {
         std::vector<Finding> findings;
-        for (const bool told : {true, false}) {
-            const BirthReport report = driveThroughWalls(context, told, secondsPastTwoWalls);
+        for (const bool known : {true, false}) {
+            const BirthReport report = driveThroughWalls(context, known, secondsPastTwoWalls);
             const auto count = static_cast<double>(report.inSolids);
-            findings.push_back({told ? "in_solids" : "in_solids_untold", count, count, count, report.births});
+            findings.push_back({known ? "in_solids" : "in_solids_untold", count, count, count, report.births});
         }
         return findings;
     };

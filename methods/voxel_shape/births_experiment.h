@@ -16,8 +16,8 @@ struct BirthReport {
 };
 
 /// Drives the particle car with the vehicle of the scene `wall`, which drives at 20 m/s and meets a wall every 40 m,
-/// the first after 1 s. `solidsAreTold` = false hides the solids from the method.
-[[nodiscard]] BirthReport driveThroughWalls(ExperimentContext& context, bool solidsAreTold, double seconds);
+/// the first after 1 s. `solidsAreKnown` = false hides the solids from the method.
+[[nodiscard]] BirthReport driveThroughWalls(ExperimentContext& context, bool solidsAreKnown, double seconds);
 
 /// The experiment `births`, past two walls:
 ///     in_solids         particles born inside solids

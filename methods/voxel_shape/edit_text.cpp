@@ -167,9 +167,9 @@ namespace {
 
 /// Converts a path in shape file `from` for a shape file in `folder`. Names of data files do not change.
 std::string renamed(const std::string& named, const fs::path& from, const fs::path& folder) {
-    const fs::path beside = from.parent_path() / named;
-    const bool isData = !fs::exists(beside) && !files::dataPath(fs::path("shapes") / named).empty();
-    return named == "vehicle" || isData ? named : pathFrom(folder, beside);
+    const fs::path relativeToFile = from.parent_path() / named;
+    const bool isData = !fs::exists(relativeToFile) && !files::dataPath(fs::path("shapes") / named).empty();
+    return named == "vehicle" || isData ? named : pathFrom(folder, relativeToFile);
 }
 
 }  // namespace

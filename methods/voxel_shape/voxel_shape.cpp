@@ -136,10 +136,10 @@ ShapeCount VoxelShape::count() const {
 void VoxelShape::report(const Frame& frame, Facts& facts) const {
     for (const LivingShape& shape : shapes_) shape.requireNumberHeld();
     const ShapeCount counted = count();
-    facts.tell("inside", static_cast<std::int64_t>(counted.inside));
-    facts.tell("fading", static_cast<std::int64_t>(counted.fading));
+    facts.set("inside", static_cast<std::int64_t>(counted.inside));
+    facts.set("fading", static_cast<std::int64_t>(counted.fading));
     if (!facts.wants("silhouette_iou")) return;
-    if (const auto overlap = silhouetteOverlap(frame.view)) facts.tell("silhouette_iou", *overlap);
+    if (const auto overlap = silhouetteOverlap(frame.view)) facts.set("silhouette_iou", *overlap);
 }
 
 std::optional<double> VoxelShape::silhouetteOverlap(const scene::View& view) const {

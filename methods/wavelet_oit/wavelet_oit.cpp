@@ -125,7 +125,7 @@ void WaveletOit::draw(const Frame& frame, gpu::Layer& layer) {
 void WaveletOit::report(const Frame&, Facts& facts) const {
     const int each = settings_.storage == Storage::halves ? 16 : 32;
     const int bounds = settings_.bounds == Bounds::pixel ? bitsOfBounds : 0;
-    facts.tell("bits_per_pixel", std::int64_t{each * coefficientsOfRank(settings_.rank) + bitsOfSums + bounds});
+    facts.set("bits_per_pixel", std::int64_t{each * coefficientsOfRank(settings_.rank) + bitsOfSums + bounds});
 }
 
 MemoryReport WaveletOit::memory() const {

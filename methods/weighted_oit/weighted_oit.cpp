@@ -96,7 +96,7 @@ void WeightedOit::draw(const Frame& frame, gpu::Layer& layer) {
 void WeightedOit::report(const Frame&, Facts& facts) const {
     const std::size_t bytes =
         gpu::bytesPerTexel(formatOf(settings_.accumulation)) + gpu::bytesPerTexel(formatOf(settings_.revealage));
-    facts.tell("bits_per_pixel", static_cast<std::int64_t>(8 * bytes));
+    facts.set("bits_per_pixel", static_cast<std::int64_t>(8 * bytes));
 }
 
 MemoryReport WeightedOit::memory() const {

@@ -325,9 +325,9 @@ TEST(WeightedOit, BlendsAsPublishedInModePaper) {
         std::int64_t bytes = 0;
         for (const MemoryUse& use : method->memory())
             if (use.structure == "weighted sums") bytes = static_cast<std::int64_t>(use.gpuBytes);
-        const auto told = std::get<std::int64_t>(facts.value("bits_per_pixel").value());
-        EXPECT_EQ(8 * bytes, 96 * 72 * told);
-        return told;
+        const auto reported = std::get<std::int64_t>(facts.value("bits_per_pixel").value());
+        EXPECT_EQ(8 * bytes, 96 * 72 * reported);
+        return reported;
     };
     EXPECT_EQ(bits(fixed), 160);
     EXPECT_EQ(bits(paper), 72);

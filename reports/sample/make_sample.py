@@ -32,7 +32,7 @@ OUT = ROOT / "reports" / "out" / "sample"
 GROUPS = {"transparency": {
     "title": "Eight papers on transparency",
     "papers": ["enderton2010", "aizenshtein2022", "munstermann2018", "mcguire2013", "salvi2011", "salvi2014", "yang2010", "cantlay2007"],
-    "suites": ["transparency"]}}
+    "suites": ["transparency", "transparency-scenes", "transparency-load"]}}
 GROUPED = {paper for group in GROUPS.values() for paper in group["papers"]}
 PAPERS = sorted(folder.parent.name for folder in (ROOT / "data" / "papers").glob("*/paper.toml") if folder.parent.name not in GROUPED)
 PAPER, SUITE = "carr2006", "carr2006-compare-quick"  # shown in README.md

@@ -21,7 +21,7 @@ struct Shown {
 
 /// A shape after its 30th frame, seen from a fixed position in the shape's own frame.
 Shown shownAt(const std::string& shape, const std::string& speed, const std::string& preroll = "1.5") {
-    bench::LentContext context(1);
+    bench::ProgramContext context(1);
     const auto world =
         context.world("plain", {{"particles", "10"}, {"preroll", preroll}, {"speed", speed}}, width, height);
     const MethodInfo info = voxel_shape::describe();

@@ -8,11 +8,11 @@
 namespace dustbench::bench {
 namespace {
 
-std::optional<double> valueOfRun(const Judgement& judgement, const Metric& metric) {
-    if (metric.overRun == OverRun::pairs || metric.overRun == OverRun::whole) return judgement.ofRun.of(metric.column);
+std::optional<double> valueOfRun(const RunMetrics& runMetrics, const Metric& metric) {
+    if (metric.overRun == OverRun::pairs || metric.overRun == OverRun::whole) return runMetrics.ofRun.of(metric.column);
     double sum = 0;
     int count = 0;
-    for (const MomentMetrics& moment : judgement.frames)
+    for (const MomentMetrics& moment : runMetrics.frames)
         if (const std::optional<double>& value = moment.values.of(metric.column)) {
             sum += *value;
             ++count;
@@ -24,13 +24,13 @@ std::optional<double> valueOfRun(const Judgement& judgement, const Metric& metri
 
 }  // namespace
 
-std::string metricsCsv(const Judgement& judgement) {
+std::string metricsCsv(const RunMetrics& runMetrics) {
     const auto hasFrames = [](const Metric& metric) { return metric.overRun != OverRun::whole; };
     std::string text = "frame,time_s";
     for (const Metric& metric : metrics())
         if (hasFrames(metric)) text.append(",").append(metric.column);
     text += "\n";
-    for (const MomentMetrics& moment : judgement.frames) {
+    for (const MomentMetrics& moment : runMetrics.frames) {
         text += std::to_string(moment.frame) + "," + files::csvNumber(moment.timeSeconds);
         for (const Metric& metric : metrics()) {
             if (!hasFrames(metric)) continue;
@@ -42,16 +42,16 @@ std::string metricsCsv(const Judgement& judgement) {
     return text;
 }
 
-std::vector<std::pair<std::string, double>> summaryOf(const Judgement& judgement) {
+std::vector<std::pair<std::string, double>> summaryOf(const RunMetrics& runMetrics) {
     std::vector<std::pair<std::string, double>> cells;
     for (const Metric& metric : metrics())
-        if (const std::optional<double> value = valueOfRun(judgement, metric))
+        if (const std::optional<double> value = valueOfRun(runMetrics, metric))
             cells.emplace_back(metric.column, *value);
     return cells;
 }
 
-std::string volumeWarning(const Judgement& judgement) {
-    for (const auto& [column, value] : summaryOf(judgement))
+std::string volumeWarning(const RunMetrics& runMetrics) {
+    for (const auto& [column, value] : summaryOf(runMetrics))
         if (column == "volume_picture" && value > maximumVolumePicture)
             return fmt::format(
                 "the method does not draw the volume that it reports: volume_picture is {:.2f}, allowed: up to {}; "

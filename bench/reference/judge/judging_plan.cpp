@@ -9,7 +9,7 @@
 
 namespace dustbench::bench {
 
-std::vector<std::int64_t> JudgingPlan::momentsOf(std::int64_t frames) const {
+std::vector<std::int64_t> MetricPlan::momentsOf(std::int64_t frames) const {
     std::vector<std::int64_t> list;
     if (moments) {
         for (std::int64_t frame = moments->first; frame <= moments->last; frame += moments->step) list.push_back(frame);
@@ -20,7 +20,7 @@ std::vector<std::int64_t> JudgingPlan::momentsOf(std::int64_t frames) const {
     return list;
 }
 
-std::vector<std::int64_t> JudgingPlan::stretchOf(std::int64_t frames) {
+std::vector<std::int64_t> MetricPlan::stretchOf(std::int64_t frames) {
     std::vector<std::int64_t> list;
     const std::int64_t count = PoppingSummary::minimumPairs + 1;
     if (frames < count) return list;
@@ -28,14 +28,14 @@ std::vector<std::int64_t> JudgingPlan::stretchOf(std::int64_t frames) {
     return list;
 }
 
-std::string JudgingPlan::referenceText() const {
+std::string MetricPlan::referenceText() const {
     if (finer.empty()) return "exact";
     std::string text;
     for (const auto& [name, value] : finer) text += (text.empty() ? "" : " ") + name + "=" + value;
     return text;
 }
 
-void requireMomentsWithinRun(const JudgingPlan& plan, std::int64_t frames) {
+void requireMomentsWithinRun(const MetricPlan& plan, std::int64_t frames) {
     if (!plan.moments) return;
     if (plan.moments->count() < minimumMoments)
         throw InputError(fmt::format("metric frames: got {} frames ({}), allowed: {} or more", plan.moments->count(),

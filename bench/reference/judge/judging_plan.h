@@ -14,7 +14,7 @@ namespace dustbench::bench {
 
 inline constexpr std::int64_t minimumMoments = 5;
 
-struct JudgingPlan {
+struct MetricPlan {
     /// Empty: five moments, evenly spaced from the first frame to the last.
     std::optional<FrameRange> moments;
     /// Empty: the reference is the ground truth of the particles. Otherwise it is the same method with these parameters
@@ -32,6 +32,6 @@ struct JudgingPlan {
 };
 
 /// Throws InputError for fewer than five moments, or moments beyond the end of the run.
-void requireMomentsWithinRun(const JudgingPlan& plan, std::int64_t frames);
+void requireMomentsWithinRun(const MetricPlan& plan, std::int64_t frames);
 
 }  // namespace dustbench::bench

@@ -14,16 +14,16 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Pair;
 
-TEST(JudgingPlan, TakesFiveMomentsFromTheFirstFrameToTheLast) {
-    const JudgingPlan plan;
+TEST(MetricPlan, TakesFiveMomentsFromTheFirstFrameToTheLast) {
+    const MetricPlan plan;
     EXPECT_THAT(plan.momentsOf(120), ElementsAre(0, 29, 59, 89, 119));
     EXPECT_THAT(plan.momentsOf(5), ElementsAre(0, 1, 2, 3, 4));
     EXPECT_THAT(plan.momentsOf(1), ElementsAre(0));
     EXPECT_THAT(plan.momentsOf(3), ElementsAre(0, 1, 2));
 }
 
-TEST(JudgingPlan, TakesTheMomentsThatAreNamed) {
-    const JudgingPlan plan{FrameRange{2, 14, 3}, {}};
+TEST(MetricPlan, TakesTheMomentsThatAreNamed) {
+    const MetricPlan plan{FrameRange{2, 14, 3}, {}};
     EXPECT_THAT(plan.momentsOf(120), ElementsAre(2, 5, 8, 11, 14));
     EXPECT_NO_THROW(requireMomentsWithinRun(plan, 15));
     EXPECT_THAT(inputError([&] { requireMomentsWithinRun(plan, 14); }), HasSubstr("frame 14 is beyond"));
@@ -33,18 +33,18 @@ TEST(JudgingPlan, TakesTheMomentsThatAreNamed) {
                 HasSubstr("got 4 moments"));
 }
 
-TEST(JudgingPlan, PoppingIsSeenOverTheLastFramesOrNotAtAll) {
-    EXPECT_THAT(JudgingPlan::stretchOf(30), IsEmpty());
-    EXPECT_EQ(JudgingPlan::stretchOf(31).size(), 31u);
-    EXPECT_EQ(JudgingPlan::stretchOf(100).front(), 69);
-    EXPECT_EQ(JudgingPlan::stretchOf(100).back(), 99);
+TEST(MetricPlan, PoppingIsSeenOverTheLastFramesOrNotAtAll) {
+    EXPECT_THAT(MetricPlan::stretchOf(30), IsEmpty());
+    EXPECT_EQ(MetricPlan::stretchOf(31).size(), 31u);
+    EXPECT_EQ(MetricPlan::stretchOf(100).front(), 69);
+    EXPECT_EQ(MetricPlan::stretchOf(100).back(), 99);
 }
 
-TEST(Judgement, AveragesOverTheMomentsAtWhichAMetricIsDefined) {
-    Judgement judgement;
-    judgement.frames.resize(3);
+TEST(RunMetrics, AveragesOverTheMomentsAtWhichAMetricIsDefined) {
+    RunMetrics runMetrics;
+    runMetrics.frames.resize(3);
     const auto set = [&](std::size_t frame, const char* column, double value) {
-        judgement.frames[frame].values.set(column, value);
+        runMetrics.frames[frame].values.set(column, value);
     };
     set(0, "psnr_db", 30);
     set(0, "identical", 0);
@@ -52,20 +52,20 @@ TEST(Judgement, AveragesOverTheMomentsAtWhichAMetricIsDefined) {
     set(1, "identical", 0);
     set(2, "identical", 1);
     set(2, "flip", 0);
-    judgement.ofRun.set("popping_max", 0.5);
-    EXPECT_THAT(summaryOf(judgement),
+    runMetrics.ofRun.set("popping_max", 0.5);
+    EXPECT_THAT(summaryOf(runMetrics),
                 ElementsAre(Pair("psnr_db", 35), Pair("flip", 0), Pair("identical", 0), Pair("popping_max", 0.5)));
-    judgement.frames.erase(judgement.frames.begin(), judgement.frames.begin() + 2);
-    EXPECT_THAT(summaryOf(judgement), testing::Contains(Pair("identical", 1)));
+    runMetrics.frames.erase(runMetrics.frames.begin(), runMetrics.frames.begin() + 2);
+    EXPECT_THAT(summaryOf(runMetrics), testing::Contains(Pair("identical", 1)));
 }
 
-TEST(Judgement, LeavesCellsEmptyWhereNothingIsDefined) {
-    Judgement judgement;
-    judgement.frames.resize(1);
-    judgement.frames[0].frame = 7;
-    judgement.frames[0].timeSeconds = 0.5;
-    judgement.frames[0].values.set("popping", 0.25);
-    const auto table = files::CsvTable::parseText(metricsCsv(judgement), "metrics.csv");
+TEST(RunMetrics, LeavesCellsEmptyWhereNothingIsDefined) {
+    RunMetrics runMetrics;
+    runMetrics.frames.resize(1);
+    runMetrics.frames[0].frame = 7;
+    runMetrics.frames[0].timeSeconds = 0.5;
+    runMetrics.frames[0].values.set("popping", 0.25);
+    const auto table = files::CsvTable::parseText(metricsCsv(runMetrics), "metrics.csv");
     for (const std::string& column : table.header()) {
         const char* expected = column == "frame" ? "7" : column == "time_s" ? "0.5" : column == "popping" ? "0.25" : "";
         EXPECT_EQ(table.cell(0, column), expected) << column;

@@ -16,34 +16,34 @@ pictures::Image overScene(const pictures::Image& layer, const pictures::Image& s
 }
 
 /// Prepares what the metrics need of the two pictures.
-JudgedMoment prepare(const DrawnMoment& drawn, const ExactMoment& exact, ComparedMoment& moment) {
-    JudgedMoment judged{{}, overScene(drawn.layer, drawn.scene), overScene(exact.layer, drawn.scene), {}};
-    moment.picture = preparePicture(judged.picture, "the method's picture");
-    moment.reference = preparePicture(judged.reference, "the reference");
+EvaluatedMoment prepare(const DrawnMoment& drawn, const ExactMoment& exact, ComparedMoment& moment) {
+    EvaluatedMoment evaluated{{}, overScene(drawn.layer, drawn.scene), overScene(exact.layer, drawn.scene), {}};
+    moment.picture = preparePicture(evaluated.picture, "the method's picture");
+    moment.reference = preparePicture(evaluated.reference, "the reference");
     moment.alpha = alphaOf(drawn.layer, "the method's layer");
     moment.referenceAlpha = alphaOf(exact.layer, "the reference's layer");
     moment.mask = dustMask(moment.alpha, moment.referenceAlpha);
     moment.flip = flip(moment.reference, moment.picture);
-    return judged;
+    return evaluated;
 }
 
-void evaluate(ComparedMoment& moment, JudgedMoment& judged) {
-    judged.metrics.values = valuesOf(moment);
-    judged.difference = std::move(moment.flip.map);
+void evaluate(ComparedMoment& moment, EvaluatedMoment& evaluated) {
+    evaluated.metrics.values = valuesOf(moment);
+    evaluated.difference = std::move(moment.flip.map);
 }
 
 }  // namespace
 
-JudgedMoment comparePictures(const DrawnMoment& drawn, const ExactMoment& exact) {
+EvaluatedMoment comparePictures(const DrawnMoment& drawn, const ExactMoment& exact) {
     ComparedMoment moment;
-    JudgedMoment judged = prepare(drawn, exact, moment);
-    evaluate(moment, judged);
-    return judged;
+    EvaluatedMoment evaluated = prepare(drawn, exact, moment);
+    evaluate(moment, evaluated);
+    return evaluated;
 }
 
-JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, const MomentFacts& facts) {
+EvaluatedMoment evaluateMoment(const DrawnMoment& drawn, const ExactMoment& exact, const MomentFacts& facts) {
     ComparedMoment moment;
-    JudgedMoment judged = prepare(drawn, exact, moment);
+    EvaluatedMoment evaluated = prepare(drawn, exact, moment);
     moment.alphaFree = alphaOf(drawn.layerWithoutScene, "the method's layer without the scene");
     moment.referenceAlphaFree = alphaOf(exact.layerWithoutScene, "the reference's layer without the scene");
     moment.continuum = alphaOf(exact.continuum, "the continuum's layer");
@@ -62,11 +62,11 @@ JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, con
     }
     if (!facts.volume.isNothing())
         moment.volumeAlpha = reportedAlpha(facts.volume, facts.view, distancesFromDepth(facts.view, drawn.sceneDepth));
-    evaluate(moment, judged);
-    return judged;
+    evaluate(moment, evaluated);
+    return evaluated;
 }
 
-std::optional<double> PoppingJudge::add(const DrawnMoment& drawn, const ExactMoment& exact,
+std::optional<double> PoppingMeter::add(const DrawnMoment& drawn, const ExactMoment& exact,
                                         std::span<const SizedPrimitive> primitives) {
     Kept now{preparePicture(overScene(drawn.layer, drawn.scene), "the method's picture"),
              preparePicture(overScene(exact.layer, drawn.scene), "the reference"),
@@ -90,17 +90,17 @@ std::optional<double> PoppingJudge::add(const DrawnMoment& drawn, const ExactMom
     return value;
 }
 
-void PoppingJudge::Mean::add(const std::optional<double>& value) {
+void PoppingMeter::Mean::add(const std::optional<double>& value) {
     if (!value) return;
     sum += *value;
     ++count;
 }
 
-std::optional<double> PoppingJudge::Mean::value() const {
+std::optional<double> PoppingMeter::Mean::value() const {
     return count > 0 ? std::optional(sum / static_cast<double>(count)) : std::nullopt;
 }
 
-PoppingOfRun PoppingJudge::ofRun() const {
+PoppingOfRun PoppingMeter::ofRun() const {
     if (!summary_.mean()) return {summary_, {}};
     return {summary_, {small_.value(), large_.value(), smallPart_.value(), largePart_.value()}};
 }

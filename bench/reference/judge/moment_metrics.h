@@ -28,7 +28,7 @@ struct MomentFacts {
     std::uint64_t seed = 1;
 };
 
-struct JudgedMoment {
+struct EvaluatedMoment {
     MomentMetrics metrics;
     pictures::Image picture;    ///< over the scene
     pictures::Image reference;  ///< over the scene
@@ -36,12 +36,13 @@ struct JudgedMoment {
 };
 
 /// The metrics that need only the two pictures; all others are empty.
-[[nodiscard]] JudgedMoment comparePictures(const DrawnMoment& drawn, const ExactMoment& exact);
+[[nodiscard]] EvaluatedMoment comparePictures(const DrawnMoment& drawn, const ExactMoment& exact);
 /// All metrics except popping. `exact` must have all its layers.
-[[nodiscard]] JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, const MomentFacts& facts);
+[[nodiscard]] EvaluatedMoment evaluateMoment(const DrawnMoment& drawn, const ExactMoment& exact,
+                                             const MomentFacts& facts);
 
 /// Computes popping over consecutive frames.
-class PoppingJudge {
+class PoppingMeter {
  public:
     /// Adds the next frame of the stretch; returns nothing for the first. `primitives`: those that the method draws.
     std::optional<double> add(const DrawnMoment& drawn, const ExactMoment& exact,

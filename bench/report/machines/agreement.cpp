@@ -54,27 +54,27 @@ Agreement agreementOf(const std::vector<ClaimVerdict>& verdicts) {
     return open > 0 ? Agreement::open : Agreement::agree;
 }
 
-const JudgedClaim& SharedClaim::any() const {
-    return **std::ranges::find_if(folders, [](const JudgedClaim* claim) { return claim != nullptr; });
+const EvaluatedClaim& SharedClaim::any() const {
+    return **std::ranges::find_if(folders, [](const EvaluatedClaim* claim) { return claim != nullptr; });
 }
 
 std::vector<SharedClaim> sharedClaims(const MachineSet& set) {
     std::vector<SharedClaim> claims;
     for (std::size_t folder = 0; folder < set.folders.size(); ++folder)
-        for (const JudgedClaim& judged : set.folders[folder].claims) {
+        for (const EvaluatedClaim& evaluated : set.folders[folder].claims) {
             auto found = std::ranges::find_if(claims, [&](const SharedClaim& known) {
-                return known.any().paper == judged.paper && known.any().claim.id == judged.claim.id;
+                return known.any().paper == evaluated.paper && known.any().claim.id == evaluated.claim.id;
             });
             if (found == claims.end()) {
-                claims.push_back({std::vector<const JudgedClaim*>(set.folders.size(), nullptr), {}});
+                claims.push_back({std::vector<const EvaluatedClaim*>(set.folders.size(), nullptr), {}});
                 found = std::prev(claims.end());
             }
-            found->folders[folder] = &judged;
+            found->folders[folder] = &evaluated;
         }
     for (SharedClaim& claim : claims) {
         std::vector<ClaimVerdict> verdicts;
-        for (const JudgedClaim* judged : claim.folders)
-            if (judged) verdicts.push_back(judged->result.verdict);
+        for (const EvaluatedClaim* evaluated : claim.folders)
+            if (evaluated) verdicts.push_back(evaluated->result.verdict);
         claim.agreement = agreementOf(verdicts);
     }
     std::ranges::stable_sort(claims, {}, [](const SharedClaim& claim) { return claim.any().paper; });

@@ -30,11 +30,11 @@ enum class Agreement {
 
 /// A claim with its results in the folders that contain it.
 struct SharedClaim {
-    std::vector<const JudgedClaim*> folders;  ///< by MachineSet::folders; null if missing
+    std::vector<const EvaluatedClaim*> folders;  ///< by MachineSet::folders; null if missing
     Agreement agreement = Agreement::alone;
 
     /// From any folder: the claim is the same in all.
-    [[nodiscard]] const JudgedClaim& any() const;
+    [[nodiscard]] const EvaluatedClaim& any() const;
 };
 
 /// Sorted by paper, in the order of the paper. Points into the set.

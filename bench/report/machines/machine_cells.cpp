@@ -74,7 +74,7 @@ MachineCells cellsOf(const MachineSet& set) {
         identities.push_back(identity);
         result.cells.push_back(std::move(cell));
     }
-    result.names = tellingNames(identities);
+    result.names = distinguishingNames(identities);
     return result;
 }
 

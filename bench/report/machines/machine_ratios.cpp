@@ -111,10 +111,10 @@ Turns turnsOf(const LogRatios& ratios, const std::set<std::string>& seeds) {
     return turns;
 }
 
-SideRatio judged(const Turns& turns) {
+SideRatio evaluated(const Turns& turns) {
     std::vector<double> values;
     for (const auto& [turn, x] : turns) values.push_back(x);
-    SideRatio ratio{judgeLogRatios(values), ""};
+    SideRatio ratio{evaluateLogRatios(values), ""};
     if (turns.empty())
         ratio.reason = "not measured";
     else if (turns.size() < minimumPairs)
@@ -154,7 +154,7 @@ class Measured {
         std::vector<CellIdentity> identities;
         identities.reserve(variants_.size());
         for (const auto& [identity, worlds] : variants_) identities.push_back(identity);
-        const std::vector<std::string> names = tellingNames(identities);
+        const std::vector<std::string> names = distinguishingNames(identities);
         for (const CellIdentity& identity : identities)
             experiment.variants.push_back({valueOf(identity, "method"), labelOf(identity, names)});
         for (const std::string& name : varyingNames()) {
@@ -230,7 +230,7 @@ class Measured {
 
     /// The fields that differ between worlds, in the order of a run's key.
     [[nodiscard]] std::vector<std::string> varyingNames() const {
-        return tellingNames(std::vector<CellIdentity>(worlds_.begin(), worlds_.end()));
+        return distinguishingNames(std::vector<CellIdentity>(worlds_.begin(), worlds_.end()));
     }
 
     [[nodiscard]] MachineRatio ratioOf(const Worlds& of, const Worlds& with, const std::string& column) const {
@@ -249,16 +249,16 @@ class Measured {
             std::vector<Turns> turns;
             for (const LogRatios& ratios : logs) {
                 turns.push_back(turnsOf(ratios, seeds));
-                row.sides.push_back(judged(turns.back()));
+                row.sides.push_back(evaluated(turns.back()));
             }
             ratio.worlds.push_back(std::move(row));
             turnsOfWorlds.push_back(std::move(turns));
         }
-        judgeAll(turnsOfWorlds, ratio);
+        evaluateAll(turnsOfWorlds, ratio);
         return ratio;
     }
 
-    void judgeAll(const std::vector<std::vector<Turns>>& worlds, MachineRatio& ratio) const {
+    void evaluateAll(const std::vector<std::vector<Turns>>& worlds, MachineRatio& ratio) const {
         std::vector<bool> has(sides_, false);
         for (const auto& sides : worlds)
             for (std::size_t side = 0; side < sides_; ++side) has[side] = has[side] || !sides[side].empty();
@@ -272,7 +272,7 @@ class Measured {
             for (std::size_t side = 0; side < sides_; ++side) common[side].push_back(sides[side]);
         }
         for (std::size_t side = 0; side < sides_; ++side) {
-            SideRatio all = judged(has[side] ? meanTurns(common[side]) : Turns());
+            SideRatio all = evaluated(has[side] ? meanTurns(common[side]) : Turns());
             if (has[side] && all.result.pairs == 0)
                 all.reason = ratio.common == 0 ? "no world was measured on every machine"
                                                : "no repetition exists in every world";

@@ -196,11 +196,11 @@ TEST(Agreement, IsAVerdictThatAllMachinesGive) {
 }
 
 TEST(Agreement, OnClaimsIsByPaperAndClaim) {
-    JudgedClaim claim;
+    EvaluatedClaim claim;
     claim.paper = "p";
     claim.claim.id = "R1";
     claim.result.verdict = ClaimVerdict::confirmed;
-    JudgedClaim other = claim, alone = claim;
+    EvaluatedClaim other = claim, alone = claim;
     other.result.verdict = ClaimVerdict::refuted;
     alone.claim.id = "R2";
     MachineSet set;

@@ -63,9 +63,9 @@ json experimentJson(const MachineExperiment& experiment) {
 json claimsJson(const SharedClaim& shared) {
     json claim = claimJson(shared.any());
     claim["agreement"] = agreementText(shared.agreement);
-    claim["folders"] = each(shared.folders, [](const JudgedClaim* judged) {
-        if (!judged) return json(nullptr);
-        json own = claimJson(*judged);
+    claim["folders"] = each(shared.folders, [](const EvaluatedClaim* evaluated) {
+        if (!evaluated) return json(nullptr);
+        json own = claimJson(*evaluated);
         json kept = json::object();
         for (const char* name : {"verdict", "verdictText", "measured", "low", "high", "control", "condition", "note"})
             kept[name] = std::move(own[name]);

@@ -221,7 +221,7 @@ PackedBundle packBundle(const fs::path& results, const fs::path& archive) {
     index["inputs"] = addInputs(inputsOf(runs), contents);
     addSuites(commands, contents, packed);
     WholeFile whole(archive);
-    TarWriter tar(whole.beside());
+    TarWriter tar(whole.temporaryPath());
     writeArchive(contents, index.dump(1) + "\n", archive.stem().string() + "/", tar, packed);
     tar.finish();
     whole.publish();

@@ -68,7 +68,7 @@ TEST(ExactRuns, WhatSimulatesTheSameIsOne) {
     same.threads = 3;
     same.imagesEvery = 2;
     same.sync = Sync::stage;
-    same.judging = JudgingPlan();
+    same.metricPlan = MetricPlan();
     list.push_back(runOf(same, "1"));
     const auto exact = exactRuns(stored(list));
     ASSERT_THAT(exact, SizeIs(1));

@@ -30,7 +30,7 @@ double grown(double value, double least, double growth) {
 
 RunNeeds lower(const RunNeeds& a, const RunNeeds& b) {
     return {.seconds = std::min(a.seconds, b.seconds),
-            .judgingSeconds = std::min(a.judgingSeconds, b.judgingSeconds),
+            .metricSeconds = std::min(a.metricSeconds, b.metricSeconds),
             .hostBytes = std::min(a.hostBytes, b.hostBytes),
             .deviceBytes = std::min(a.deviceBytes, b.deviceBytes)};
 }
@@ -78,13 +78,13 @@ std::optional<LadderStep> LoadLadder::next(double elapsedSeconds) {
             step.skip = whyNotMeasured(cell, elapsedSeconds);
             if (!step.skip.empty()) {
                 states_[cell] = State::leftOut;
-            } else if (step.skip = whyNotJudged(cell, elapsedSeconds); !step.skip.empty()) {
-                states_[cell] = State::notJudged;
+            } else if (step.skip = whyNotEvaluated(cell, elapsedSeconds); !step.skip.empty()) {
+                states_[cell] = State::notEvaluated;
                 repeatNow(cell);
             }
             return step;
         }
-        if (states_[cell] == State::notJudged) return step;
+        if (states_[cell] == State::notEvaluated) return step;
         if (states_[cell] != State::done) continue;
         if (elapsedSeconds + needs_[cell].seconds <= limits_.totalSeconds) return step;
         ++repetitionsLeftOut_;
@@ -100,13 +100,13 @@ void LoadLadder::repeatNow(std::size_t cell) {
 }
 
 void LoadLadder::done(const LadderStep& step, const RunNeeds& needs) {
-    if (step.repetition > 1 && states_[step.cell] != State::notJudged) return;
+    if (step.repetition > 1 && states_[step.cell] != State::notEvaluated) return;
     states_[step.cell] = State::done;
     needs_[step.cell] = needs;
 }
 
 void LoadLadder::failed(const LadderStep& step) {
-    if (step.repetition == 1 || states_[step.cell] == State::notJudged) states_[step.cell] = State::failed;
+    if (step.repetition == 1 || states_[step.cell] == State::notEvaluated) states_[step.cell] = State::failed;
 }
 
 /// The next lower load at the same size whose pictures were not the only reason to leave it out.
@@ -115,7 +115,7 @@ std::optional<std::size_t> LoadLadder::below(std::size_t cell) const {
     for (auto at = places_.find(Place(of.suite, of.ladder, of.pixels, of.load)); at != places_.begin();) {
         const LadderCell& other = cells_[(--at)->second];
         if (other.suite != of.suite || other.ladder != of.ladder || other.pixels != of.pixels) return std::nullopt;
-        if (states_[at->second] != State::notJudged) return at->second;
+        if (states_[at->second] != State::notEvaluated) return at->second;
     }
     return std::nullopt;
 }
@@ -155,18 +155,18 @@ RunNeeds LoadLadder::leastOf(std::size_t cell, bool atItsSize) const {
 }
 
 /// The reference takes the same for every method; from a lower load it grows with the load.
-double LoadLadder::judgingSeconds(std::size_t cell) const {
+double LoadLadder::metricSeconds(std::size_t cell) const {
     const LadderCell& of = cells_[cell];
-    if (!of.judged) return 0;
+    if (!of.evaluated) return 0;
     double longest = 0;
     for (std::size_t i = 0; i < cells_.size(); ++i)
-        if (states_[i] == State::done && cells_[i].judged && cells_[i].suite == of.suite && cells_[i].load == of.load &&
-            cells_[i].pixels == of.pixels)
-            longest = std::max(longest, needs_[i].judgingSeconds);
+        if (states_[i] == State::done && cells_[i].evaluated && cells_[i].suite == of.suite &&
+            cells_[i].load == of.load && cells_[i].pixels == of.pixels)
+            longest = std::max(longest, needs_[i].metricSeconds);
     if (longest > 0) return longest;
     const auto lower = below(cell);
     if (!lower || states_[*lower] != State::done) return 0;
-    return needs_[*lower].judgingSeconds * of.load / cells_[*lower].load;
+    return needs_[*lower].metricSeconds * of.load / cells_[*lower].load;
 }
 
 std::optional<RunNeeds> LoadLadder::predicted(std::size_t cell) const {
@@ -175,12 +175,12 @@ std::optional<RunNeeds> LoadLadder::predicted(std::size_t cell) const {
         const RunNeeds& known = needs_[basis.cell];
         const RunNeeds least = leastOf(basis.cell, cells_[basis.cell].pixels == cells_[cell].pixels);
         const RunNeeds each{.seconds = grown(known.seconds, least.seconds, basis.growth),
-                            .judgingSeconds = 0,
+                            .metricSeconds = 0,
                             .hostBytes = grown(known.hostBytes, least.hostBytes, basis.growth),
                             .deviceBytes = grown(known.deviceBytes, least.deviceBytes, basis.growth)};
         prediction = prediction ? lower(*prediction, each) : each;
     }
-    if (prediction) prediction->judgingSeconds = judgingSeconds(cell);
+    if (prediction) prediction->metricSeconds = metricSeconds(cell);
     return prediction;
 }
 
@@ -210,11 +210,11 @@ std::string LoadLadder::whyNotMeasured(std::size_t cell, double elapsedSeconds) 
     return "";
 }
 
-std::string LoadLadder::whyNotJudged(std::size_t cell, double elapsedSeconds) const {
-    const double needed = judgingSeconds(cell);
+std::string LoadLadder::whyNotEvaluated(std::size_t cell, double elapsedSeconds) const {
+    const double needed = metricSeconds(cell);
     const double left = limits_.totalSeconds - elapsedSeconds - predicted(cell).value_or(RunNeeds()).seconds;
     const std::string about = "comparing its pictures would take about " + secondsText(needed);
-    if (needed > limits_.judgingSeconds) return about + ", allowed: " + secondsText(limits_.judgingSeconds);
+    if (needed > limits_.metricSeconds) return about + ", allowed: " + secondsText(limits_.metricSeconds);
     if (needed > left) return about + ", but " + secondsText(left) + " are left";
     return "";
 }

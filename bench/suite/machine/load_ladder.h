@@ -29,23 +29,23 @@ struct LadderCell {
     double load = 1;
     double pixels = 1;
     int repetitions = 1;
-    bool judged = false;  ///< its first run's pictures are compared with a reference
+    bool evaluated = false;  ///< its first run's pictures are compared with a reference
 };
 
 /// What a run takes.
 struct RunNeeds {
-    double seconds = 0;         ///< from the start of its process to the last frame
-    double judgingSeconds = 0;  ///< the comparison of its pictures after it
+    double seconds = 0;        ///< from the start of its process to the last frame
+    double metricSeconds = 0;  ///< the comparison of its pictures after it
     double hostBytes = 0;
     double deviceBytes = 0;
 
-    [[nodiscard]] double allSeconds() const { return seconds + judgingSeconds; }
+    [[nodiscard]] double allSeconds() const { return seconds + metricSeconds; }
 };
 
 struct LadderLimits {
-    double totalSeconds = 0;    ///< of all runs
-    double runSeconds = 0;      ///< RunNeeds::seconds of one run
-    double judgingSeconds = 0;  ///< RunNeeds::judgingSeconds of one run
+    double totalSeconds = 0;   ///< of all runs
+    double runSeconds = 0;     ///< RunNeeds::seconds of one run
+    double metricSeconds = 0;  ///< RunNeeds::metricSeconds of one run
     double hostBytes = std::numeric_limits<double>::infinity();
     double deviceBytes = std::numeric_limits<double>::infinity();
 };
@@ -72,7 +72,7 @@ class LoadLadder {
     [[nodiscard]] std::optional<RunNeeds> predicted(std::size_t cell) const;
 
  private:
-    enum class State { open, done, failed, leftOut, notJudged };
+    enum class State { open, done, failed, leftOut, notEvaluated };
     using Place = std::tuple<std::string, std::string, double, double>;  ///< suite, ladder, pixels, load
 
     struct Basis {
@@ -84,9 +84,9 @@ class LoadLadder {
     [[nodiscard]] std::optional<std::size_t> below(std::size_t cell) const;
     [[nodiscard]] std::optional<std::size_t> smaller(std::size_t cell) const;
     [[nodiscard]] RunNeeds leastOf(std::size_t cell, bool atItsSize) const;
-    [[nodiscard]] double judgingSeconds(std::size_t cell) const;
+    [[nodiscard]] double metricSeconds(std::size_t cell) const;
     [[nodiscard]] std::string whyNotMeasured(std::size_t cell, double elapsedSeconds) const;
-    [[nodiscard]] std::string whyNotJudged(std::size_t cell, double elapsedSeconds) const;
+    [[nodiscard]] std::string whyNotEvaluated(std::size_t cell, double elapsedSeconds) const;
     void repeatNow(std::size_t cell);
     void sortSteps();
 

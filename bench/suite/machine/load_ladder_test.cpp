@@ -73,7 +73,7 @@ RunNeeds linear(const LadderCell& cell) {
             .deviceBytes = 50 * cell.load};
 }
 
-constexpr LadderLimits roomy{.totalSeconds = 1e6, .runSeconds = 1e6, .judgingSeconds = 1e6};
+constexpr LadderLimits roomy{.totalSeconds = 1e6, .runSeconds = 1e6, .metricSeconds = 1e6};
 
 TEST(LoadLadder, RunsTheLowestLoadsOfAllMethodsAndSizesFirst) {
     const auto cells = twoMethods({1e3, 1e4, 1e5});
@@ -179,12 +179,12 @@ TEST(LoadLadder, PredictsTheGrowthOfWhatARunTakesBeyondTheLeastOfItsSuite) {
 
 TEST(LoadLadder, ARunWhosePicturesTakeTooLongToCompareIsMeasuredWithoutThem) {
     std::vector<LadderCell> cells = twoMethods({1e3, 1e4, 1e5}, 2);
-    for (LadderCell& cell : cells) cell.judged = cell.pixels == hd && cell.load <= 1e4;
+    for (LadderCell& cell : cells) cell.evaluated = cell.pixels == hd && cell.load <= 1e4;
     LadderLimits limits = roomy;
-    limits.judgingSeconds = 20;
+    limits.metricSeconds = 20;
     const auto needs = [](const LadderCell& cell) {
         RunNeeds made = linear(cell);
-        if (cell.judged && cell.load == 1e3) made.judgingSeconds = cell.load / 200;
+        if (cell.evaluated && cell.load == 1e3) made.metricSeconds = cell.load / 200;
         return made;
     };
     const Walk cut = walk(cells, limits, needs);

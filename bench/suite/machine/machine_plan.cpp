@@ -37,7 +37,7 @@ LadderLimits readLimits(files::TomlReader table) {
     LadderLimits limits;
     limits.totalSeconds = table.number("total_limit_s", 0.01, longest);
     limits.runSeconds = table.number("run_limit_s", 0.1, longest);
-    limits.judgingSeconds = table.number("judging_limit_s", 0.1, longest);
+    limits.metricSeconds = table.number("judging_limit_s", 0.1, longest);
     table.finish();
     return limits;
 }
@@ -120,7 +120,7 @@ std::vector<PlacedCell> cellsOf(const MachinePlan& plan) {
                               .load = value == spec.parameters.end() ? 1 : loadOf(value->second),
                               .pixels = static_cast<double>(spec.size.width) * spec.size.height,
                               .repetitions = cell.repetitions > 0 ? cell.repetitions : suite.repetitions,
-                              .judged = spec.judging.has_value()};
+                              .evaluated = spec.metricPlan.has_value()};
             cells.push_back({std::move(cell), std::move(ladder)});
         }
     return cells;
@@ -130,10 +130,10 @@ RunNeeds needsOf(const StoredRun& run, const RunSpec& spec) {
     const auto number = [&](const char* column) { return numberIn(run, column).value_or(0); };
     const double all = number("run_s"), fps = number("fps_avg");
     double measuring = all;
-    if (spec.judging && fps > 0)
+    if (spec.metricPlan && fps > 0)
         measuring = std::min(all, number("start_s") + static_cast<double>(spec.warmup + spec.frames) / fps);
     return {.seconds = measuring,
-            .judgingSeconds = all - measuring,
+            .metricSeconds = all - measuring,
             .hostBytes = number("rss_peak_bytes"),
             .deviceBytes = number("gpu_bytes")};
 }

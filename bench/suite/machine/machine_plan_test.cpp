@@ -31,12 +31,12 @@ TEST(MachinePlan, JudgesPicturesAtTheSmallestSizeAlone) {
     double smallest = 1e12;
     const std::vector<PlacedCell> cells = cellsOf(loadMachinePlan(false));
     for (const PlacedCell& cell : cells) smallest = std::min(smallest, cell.ladder.pixels);
-    bool judges = false;
+    bool evaluates = false;
     for (const PlacedCell& cell : cells) {
-        EXPECT_TRUE(!cell.ladder.judged || cell.ladder.pixels == smallest);
-        judges = judges || cell.ladder.judged;
+        EXPECT_TRUE(!cell.ladder.evaluated || cell.ladder.pixels == smallest);
+        evaluates = evaluates || cell.ladder.evaluated;
     }
-    EXPECT_TRUE(judges);
+    EXPECT_TRUE(evaluates);
 }
 
 TEST(MachinePlan, ALoadIsANumberOrTheCellsOfAGrid) {
@@ -53,13 +53,13 @@ TEST(MachinePlan, TellsJudgingFromMeasuring) {
     spec.frames = 50;
     RunNeeds needs = needsOf(run, spec);
     EXPECT_DOUBLE_EQ(needs.seconds, 10);
-    EXPECT_DOUBLE_EQ(needs.judgingSeconds, 0);
+    EXPECT_DOUBLE_EQ(needs.metricSeconds, 0);
     EXPECT_DOUBLE_EQ(needs.hostBytes, 5000);
     EXPECT_DOUBLE_EQ(needs.deviceBytes, 70);
-    spec.judging.emplace();
+    spec.metricPlan.emplace();
     needs = needsOf(run, spec);
     EXPECT_DOUBLE_EQ(needs.seconds, 5);
-    EXPECT_DOUBLE_EQ(needs.judgingSeconds, 5);
+    EXPECT_DOUBLE_EQ(needs.metricSeconds, 5);
 }
 
 }  // namespace

@@ -95,14 +95,14 @@ std::vector<FolderCell> cellsOf(const ResultsSide& a, const ResultsSide& b) {
     return list;
 }
 
-std::vector<std::string> tellingNames(const std::vector<FolderCell>& cells) {
+std::vector<std::string> distinguishingNames(const std::vector<FolderCell>& cells) {
     std::vector<CellIdentity> identities;
     identities.reserve(cells.size());
     for (const FolderCell& cell : cells) identities.push_back(cell.identity);
-    return tellingNames(identities);
+    return distinguishingNames(identities);
 }
 
-std::vector<std::string> tellingNames(const std::vector<CellIdentity>& cells) {
+std::vector<std::string> distinguishingNames(const std::vector<CellIdentity>& cells) {
     std::vector<std::string> order;
     std::map<std::string, std::map<std::string, std::set<std::string>>> valuesByMethod;  // values of each name
     std::map<std::string, std::size_t> cellsByMethod;
@@ -124,13 +124,13 @@ std::vector<std::string> tellingNames(const std::vector<CellIdentity>& cells) {
     return order;
 }
 
-std::string labelOf(const FolderCell& cell, const std::vector<std::string>& tellingNames) {
-    return labelOf(cell.identity, tellingNames);
+std::string labelOf(const FolderCell& cell, const std::vector<std::string>& distinguishingNames) {
+    return labelOf(cell.identity, distinguishingNames);
 }
 
-std::string labelOf(const CellIdentity& identity, const std::vector<std::string>& tellingNames) {
+std::string labelOf(const CellIdentity& identity, const std::vector<std::string>& distinguishingNames) {
     std::string label = valueOf(identity, "method");
-    for (const std::string& name : tellingNames)
+    for (const std::string& name : distinguishingNames)
         if (const std::string value = valueOf(identity, name); !value.empty())
             label += fmt::format(" {}={}", name.starts_with("p.") ? name.substr(2) : name, value);
     return label;

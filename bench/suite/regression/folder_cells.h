@@ -52,11 +52,11 @@ struct FolderCell {
 [[nodiscard]] std::vector<FolderCell> cellsOf(const ResultsSide& a, const ResultsSide& b);
 
 /// The fields needed in addition to the method to tell configurations apart: those with several values in one method.
-[[nodiscard]] std::vector<std::string> tellingNames(const std::vector<CellIdentity>& cells);
-[[nodiscard]] std::vector<std::string> tellingNames(const std::vector<FolderCell>& cells);
+[[nodiscard]] std::vector<std::string> distinguishingNames(const std::vector<CellIdentity>& cells);
+[[nodiscard]] std::vector<std::string> distinguishingNames(const std::vector<FolderCell>& cells);
 
 /// `billboard particles=500 sort=none`
-[[nodiscard]] std::string labelOf(const CellIdentity& identity, const std::vector<std::string>& tellingNames);
-[[nodiscard]] std::string labelOf(const FolderCell& cell, const std::vector<std::string>& tellingNames);
+[[nodiscard]] std::string labelOf(const CellIdentity& identity, const std::vector<std::string>& distinguishingNames);
+[[nodiscard]] std::string labelOf(const FolderCell& cell, const std::vector<std::string>& distinguishingNames);
 
 }  // namespace dustbench::bench

@@ -33,15 +33,15 @@ double geometricMean(const std::vector<double>& logs) {
     return std::exp(sum / static_cast<double>(logs.size()));  // NaN for none
 }
 
-JudgedCell judge(const FolderCell* cell, const std::string& column, const std::vector<double>& a,
-                 const std::vector<double>& b) {
-    JudgedCell judged{cell, column, geometricMean(a), geometricMean(b), compareUnpairedLogs(b, a), ""};
+EvaluatedCell evaluate(const FolderCell* cell, const std::string& column, const std::vector<double>& a,
+                       const std::vector<double>& b) {
+    EvaluatedCell evaluated{cell, column, geometricMean(a), geometricMean(b), compareUnpairedLogs(b, a), ""};
     if (a.empty() || b.empty())
-        judged.reason = fmt::format("no time above 0 in {}", a.empty() ? "A" : "B");
-    else if (!judged.result.hasEnough())
-        judged.reason = fmt::format("{} and {} {}, {} of each are needed", a.size(), b.size(),
-                                    cell ? "runs" : "complete repetitions", minimumTimes);
-    return judged;
+        evaluated.reason = fmt::format("no time above 0 in {}", a.empty() ? "A" : "B");
+    else if (!evaluated.result.hasEnough())
+        evaluated.reason = fmt::format("{} and {} {}, {} of each are needed", a.size(), b.size(),
+                                       cell ? "runs" : "complete repetitions", minimumTimes);
+    return evaluated;
 }
 
 /// One number per repetition: the mean over the configurations, if all have a value.
@@ -61,17 +61,17 @@ std::vector<double> meansOverCells(const std::vector<const FolderCell*>& cells, 
     return means;
 }
 
-void judgeColumn(const std::vector<FolderCell>& cells, const std::string& column, std::vector<JudgedCell>& list) {
+void evaluateColumn(const std::vector<FolderCell>& cells, const std::string& column, std::vector<EvaluatedCell>& list) {
     std::vector<const FolderCell*> withTimes;
     for (const FolderCell& cell : cells) {
         if (cell.a.done.empty() || cell.b.done.empty()) continue;
         const auto a = logsMs(cell.a, column), b = logsMs(cell.b, column);
         if (!a.empty() && !b.empty()) withTimes.push_back(&cell);
-        list.push_back(judge(&cell, column, a, b));
+        list.push_back(evaluate(&cell, column, a, b));
     }
     if (withTimes.size() > 1)
-        list.push_back(judge(nullptr, column, meansOverCells(withTimes, &FolderCell::a, column),
-                             meansOverCells(withTimes, &FolderCell::b, column)));
+        list.push_back(evaluate(nullptr, column, meansOverCells(withTimes, &FolderCell::a, column),
+                                meansOverCells(withTimes, &FolderCell::b, column)));
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ FolderComparison compareFolders(const ResultsSide& a, const ResultsSide& b, cons
                                 bool acrossMachines) {
     FolderComparison comparison;
     comparison.cells = cellsOf(a, b);
-    comparison.axes = tellingNames(comparison.cells);
+    comparison.axes = distinguishingNames(comparison.cells);
     const FolderRemarks remarks(a, b, comparison.cells, comparison.axes);
     comparison.obstacles = remarks.obstacles();
     std::vector<std::string>& aboutMachines = acrossMachines ? comparison.remarks : comparison.obstacles;
@@ -91,7 +91,7 @@ FolderComparison compareFolders(const ResultsSide& a, const ResultsSide& b, cons
         if (!cell.a.done.empty() && cell.a.failed.empty() && cell.a.invalid.empty() && !whyBroken(cell).empty())
             comparison.broken.push_back(&cell);
     if (comparison.obstacles.empty())
-        for (const std::string& column : columns) judgeColumn(comparison.cells, column, comparison.judged);
+        for (const std::string& column : columns) evaluateColumn(comparison.cells, column, comparison.evaluated);
     return comparison;
 }
 
@@ -102,8 +102,8 @@ std::string whyBroken(const FolderCell& cell) {
     return cell.b.invalid.empty() ? "" : "invalid: " + whyInvalid(*cell.b.invalid.front());
 }
 
-bool isSlowerBy(const JudgedCell& judged, double percent) {
-    return judged.result.hasEnough() && judged.result.low > 1 + percent / 100;
+bool isSlowerBy(const EvaluatedCell& evaluated, double percent) {
+    return evaluated.result.hasEnough() && evaluated.result.low > 1 + percent / 100;
 }
 
 }  // namespace dustbench::bench

@@ -14,7 +14,7 @@
 
 namespace dustbench::bench {
 
-struct JudgedCell {
+struct EvaluatedCell {
     const FolderCell* cell = nullptr;  ///< null: all configurations together
     std::string column;                ///< of summary.csv
     double aMs = 0, bMs = 0;           ///< geometric means; NaN if none. Rates count as time per frame
@@ -29,10 +29,10 @@ struct FolderComparison {
     FolderComparison& operator=(FolderComparison&&) = default;
 
     std::vector<FolderCell> cells;
-    std::vector<std::string> axes;       ///< the fields that, with the method, identify a configuration
-    std::vector<std::string> obstacles;  ///< why the folders cannot be compared, one sentence each; empty if they can
-    std::vector<std::string> remarks;    ///< further notes: missing or failed runs, differences, disturbances
-    std::vector<JudgedCell> judged;      ///< by column: the configurations in both folders, then all together
+    std::vector<std::string> axes;         ///< the fields that, with the method, identify a configuration
+    std::vector<std::string> obstacles;    ///< why the folders cannot be compared, one sentence each; empty if they can
+    std::vector<std::string> remarks;      ///< further notes: missing or failed runs, differences, disturbances
+    std::vector<EvaluatedCell> evaluated;  ///< by column: the configurations in both folders, then all together
     /// Configurations done and valid in A without a failure that fail, time out or are invalid in B: whyBroken.
     std::vector<const FolderCell*> broken;
 };
@@ -46,6 +46,6 @@ struct FolderComparison {
 [[nodiscard]] std::string whyBroken(const FolderCell& cell);
 
 /// True if there are enough runs and the whole interval is above 1 + percent/100.
-[[nodiscard]] bool isSlowerBy(const JudgedCell& judged, double percent);
+[[nodiscard]] bool isSlowerBy(const EvaluatedCell& evaluated, double percent);
 
 }  // namespace dustbench::bench

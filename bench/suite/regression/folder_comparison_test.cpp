@@ -69,21 +69,21 @@ TEST(FolderComparison, FindsTheRatioOfEveryCellAndOfAllTogether) {
     EXPECT_THAT(result.obstacles, IsEmpty());
     EXPECT_THAT(result.remarks, IsEmpty());
     EXPECT_THAT(result.axes, ElementsAre("p.particles"));
-    ASSERT_EQ(result.judged.size(), 10u);
+    ASSERT_EQ(result.evaluated.size(), 10u);
     // ±1 % alternating: s² = 6·h²/5 of the logarithms, with h half their distance.
     const double h = std::log(1.01 / 0.99) / 2;
     const double half = studentQuantile(0.975, 10) * std::sqrt(2 * h * h / 5);
-    for (const JudgedCell& judged : result.judged) {
-        EXPECT_NEAR(judged.result.ratio, 1.1, 1e-4) << judged.column;
-        EXPECT_NEAR(std::log(judged.result.high / judged.result.low), 2 * half, 1e-4);
-        EXPECT_EQ(judged.result.verdict, Verdict::slower);
-        EXPECT_EQ(judged.result.ofCount, 6u);
-        EXPECT_TRUE(isSlowerBy(judged, 5));
-        EXPECT_FALSE(isSlowerBy(judged, 10));
+    for (const EvaluatedCell& evaluated : result.evaluated) {
+        EXPECT_NEAR(evaluated.result.ratio, 1.1, 1e-4) << evaluated.column;
+        EXPECT_NEAR(std::log(evaluated.result.high / evaluated.result.low), 2 * half, 1e-4);
+        EXPECT_EQ(evaluated.result.verdict, Verdict::slower);
+        EXPECT_EQ(evaluated.result.ofCount, 6u);
+        EXPECT_TRUE(isSlowerBy(evaluated, 5));
+        EXPECT_FALSE(isSlowerBy(evaluated, 10));
     }
-    EXPECT_EQ(labelOf(*result.judged[0].cell, result.axes), "fog particles=200");
-    EXPECT_EQ(labelOf(*result.judged[1].cell, result.axes), "fog particles=1000");
-    EXPECT_EQ(result.judged[4].cell, nullptr);
+    EXPECT_EQ(labelOf(*result.evaluated[0].cell, result.axes), "fog particles=200");
+    EXPECT_EQ(labelOf(*result.evaluated[1].cell, result.axes), "fog particles=1000");
+    EXPECT_EQ(result.evaluated[4].cell, nullptr);
 }
 
 TEST(FolderComparison, AllTogetherCountsWhatARoundHasInCommonOnce) {
@@ -95,17 +95,19 @@ TEST(FolderComparison, AllTogetherCountsWhatARoundHasInCommonOnce) {
             run.cells["frame_ms_median"] = fmt::format("{}", drift * std::stod(run.cells["frame_ms_median"]));
         }
     const FolderComparison result = compare(a, b);
-    const auto width = [](const JudgedCell& judged) { return std::log(judged.result.high / judged.result.low); };
-    EXPECT_NEAR(width(result.judged[4]), width(result.judged[0]), 1e-6);
-    EXPECT_EQ(result.judged[4].result.verdict, Verdict::unresolved);
+    const auto width = [](const EvaluatedCell& evaluated) {
+        return std::log(evaluated.result.high / evaluated.result.low);
+    };
+    EXPECT_NEAR(width(result.evaluated[4]), width(result.evaluated[0]), 1e-6);
+    EXPECT_EQ(result.evaluated[4].result.verdict, Verdict::unresolved);
 }
 
 TEST(FolderComparison, TooFewRunsResolveNothingAndAreNoRegression) {
     const FolderComparison result = compare(session(1), session(3, 5));
-    for (const JudgedCell& judged : result.judged) {
-        EXPECT_EQ(judged.result.verdict, Verdict::unresolved);
-        EXPECT_FALSE(isSlowerBy(judged, 5));
-        EXPECT_THAT(judged.reason, HasSubstr("6 and 5"));
+    for (const EvaluatedCell& evaluated : result.evaluated) {
+        EXPECT_EQ(evaluated.result.verdict, Verdict::unresolved);
+        EXPECT_FALSE(isSlowerBy(evaluated, 5));
+        EXPECT_THAT(evaluated.reason, HasSubstr("6 and 5"));
     }
 }
 
@@ -114,11 +116,11 @@ TEST(FolderComparison, OtherMachinesAreAnObstacleUnlessAllowed) {
     for (auto& [id, run] : other) run.provenance["cpu"] = "Cpu 2";
     EXPECT_THAT(compare(session(1), other).obstacles,
                 ElementsAre("cpu: 'Cpu 1' in A and 'Cpu 2' in B (4 configurations)"));
-    EXPECT_THAT(compare(session(1), other).judged, IsEmpty());
+    EXPECT_THAT(compare(session(1), other).evaluated, IsEmpty());
     const FolderComparison allowed = compare(session(1), other, true);
     EXPECT_THAT(allowed.obstacles, IsEmpty());
     EXPECT_THAT(allowed.remarks, Contains(HasSubstr("'Cpu 2' in B")));
-    EXPECT_EQ(allowed.judged.size(), 5u);
+    EXPECT_EQ(allowed.evaluated.size(), 5u);
     // One run from another machine in the same folder.
     const auto mixed = with(session(1), "haze-200-r4", [](StoredRun& run) { run.provenance["build_type"] = "Debug"; });
     EXPECT_THAT(compare(mixed, session(1)).obstacles,
@@ -170,8 +172,8 @@ TEST(FolderComparison, InvalidRunsAreLeftOutWithTheirCountAndBreakACellThatWasVa
         b.at(fmt::format("fog-200-r{}", k)).cells["frame_ms_median"] = "9999";
     }
     const FolderComparison both = compare(a, b);
-    EXPECT_EQ(both.judged.size(), 4u);  // three configurations, and all together
-    EXPECT_NEAR(both.judged.back().result.ratio, 1.001, 1e-4);
+    EXPECT_EQ(both.evaluated.size(), 4u);  // three configurations, and all together
+    EXPECT_NEAR(both.evaluated.back().result.ratio, 1.001, 1e-4);
     EXPECT_THAT(both.remarks,
                 Contains("B: 6 of 24 runs are invalid and left out of claims, fits and verdicts: clipped is 4"));
     EXPECT_THAT(both.broken, IsEmpty());
@@ -197,8 +199,8 @@ TEST(FolderComparison, ACopiedRunIsNoMeasurementOfItsOwn) {
     const FolderComparison some = compare(a, b);
     EXPECT_THAT(some.obstacles, IsEmpty());
     EXPECT_THAT(some.remarks, Contains(HasSubstr("6 runs of B are copied from A")));
-    EXPECT_EQ(some.judged.size(), 4u);
-    EXPECT_NEAR(some.judged.back().result.ratio, 1.1, 1e-4);
+    EXPECT_EQ(some.evaluated.size(), 4u);
+    EXPECT_NEAR(some.evaluated.back().result.ratio, 1.1, 1e-4);
 }
 
 TEST(FolderComparison, AnotherQuotaOrEnvironmentIsSaid) {

@@ -12,8 +12,8 @@ namespace dustbench::bench {
 class FolderRemarks {
  public:
     FolderRemarks(const ResultsSide& a, const ResultsSide& b, const std::vector<FolderCell>& cells,
-                  const std::vector<std::string>& tellingNames)
-        : a_(a), b_(b), cells_(cells), tellingNames_(tellingNames) {}
+                  const std::vector<std::string>& distinguishingNames)
+        : a_(a), b_(b), cells_(cells), distinguishingNames_(distinguishingNames) {}
 
     /// No common configuration, only copied runs, or configurations whose runs did different work: other inputs, or a
     /// different final state.
@@ -28,12 +28,12 @@ class FolderRemarks {
     [[nodiscard]] std::string nothingInCommon() const;
     /// The number of runs that were copied between the folders, as a sentence; empty if there are none.
     [[nodiscard]] std::string copies() const;
-    [[nodiscard]] std::string nameOf(const FolderCell& cell) const { return labelOf(cell, tellingNames_); }
+    [[nodiscard]] std::string nameOf(const FolderCell& cell) const { return labelOf(cell, distinguishingNames_); }
 
     const ResultsSide& a_;
     const ResultsSide& b_;
     const std::vector<FolderCell>& cells_;
-    const std::vector<std::string>& tellingNames_;
+    const std::vector<std::string>& distinguishingNames_;
 };
 
 }  // namespace dustbench::bench

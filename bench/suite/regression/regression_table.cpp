@@ -9,8 +9,9 @@
 namespace dustbench::bench {
 namespace {
 
-std::string verdictText(const JudgedCell& judged) {
-    return std::string(verdictName(judged.result.verdict)) + (judged.reason.empty() ? "" : ": " + judged.reason);
+std::string verdictText(const EvaluatedCell& evaluated) {
+    return std::string(verdictName(evaluated.result.verdict)) +
+           (evaluated.reason.empty() ? "" : ": " + evaluated.reason);
 }
 
 std::string withoutPrefix(const std::string& name) {
@@ -38,15 +39,17 @@ TextRows tabulate(const FolderComparison& comparison) {
     for (const std::string& axis : comparison.axes) table.header.push_back(withoutPrefix(axis));
     for (const char* name : {"A ms", "B ms", "ratio", "low", "high", "A runs", "B runs", "verdict"})
         table.header.emplace_back(name);
-    for (const JudgedCell& judged : comparison.judged) {
-        std::vector<std::string> row{judged.column + (judged.cell ? "" : ", all"),
-                                     judged.cell ? judged.cell->valueOf("method") : ""};
-        for (const std::string& axis : comparison.axes) row.push_back(judged.cell ? judged.cell->valueOf(axis) : "");
-        for (const double value : {judged.aMs, judged.bMs, judged.result.ratio, judged.result.low, judged.result.high})
+    for (const EvaluatedCell& evaluated : comparison.evaluated) {
+        std::vector<std::string> row{evaluated.column + (evaluated.cell ? "" : ", all"),
+                                     evaluated.cell ? evaluated.cell->valueOf("method") : ""};
+        for (const std::string& axis : comparison.axes)
+            row.push_back(evaluated.cell ? evaluated.cell->valueOf(axis) : "");
+        for (const double value :
+             {evaluated.aMs, evaluated.bMs, evaluated.result.ratio, evaluated.result.low, evaluated.result.high})
             row.push_back(fourDigits(value));
-        row.push_back(fmt::format("{}", judged.result.withCount));
-        row.push_back(fmt::format("{}", judged.result.ofCount));
-        row.push_back(verdictText(judged));
+        row.push_back(fmt::format("{}", evaluated.result.withCount));
+        row.push_back(fmt::format("{}", evaluated.result.ofCount));
+        row.push_back(verdictText(evaluated));
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -76,18 +79,18 @@ std::string comparisonCsv(const FolderComparison& comparison, std::optional<doub
     const auto identityCells = [&](const FolderCell* cell, std::vector<std::string>& row) {
         for (const std::string& name : identity) row.push_back(cell ? cell->valueOf(name) : "");
     };
-    for (const JudgedCell& judged : comparison.judged) {
-        std::vector<std::string> row{judged.column, judged.cell ? "0" : "1"};
-        identityCells(judged.cell, row);
-        const UnpairedRatio& result = judged.result;
-        for (const double value : {judged.aMs, judged.bMs, result.ratio, result.low, result.high})
+    for (const EvaluatedCell& evaluated : comparison.evaluated) {
+        std::vector<std::string> row{evaluated.column, evaluated.cell ? "0" : "1"};
+        identityCells(evaluated.cell, row);
+        const UnpairedRatio& result = evaluated.result;
+        for (const double value : {evaluated.aMs, evaluated.bMs, result.ratio, result.low, result.high})
             row.push_back(files::csvNumber(value));
         for (const std::size_t count : {result.withCount, result.ofCount}) row.push_back(fmt::format("{}", count));
         for (const auto side : {&FolderCell::a, &FolderCell::b})
-            row.push_back(judged.cell ? fmt::format("{}", (judged.cell->*side).failed.size()) : "");
+            row.push_back(evaluated.cell ? fmt::format("{}", (evaluated.cell->*side).failed.size()) : "");
         row.emplace_back(verdictName(result.verdict));
-        row.push_back(judged.reason);
-        row.emplace_back(percent ? (isSlowerBy(judged, *percent) ? "1" : "0") : "");
+        row.push_back(evaluated.reason);
+        row.emplace_back(percent ? (isSlowerBy(evaluated, *percent) ? "1" : "0") : "");
         addRow(row);
     }
     for (const FolderCell& cell : comparison.cells) {
@@ -111,7 +114,7 @@ std::string comparisonCsv(const FolderComparison& comparison, std::optional<doub
 }
 
 std::string comparisonMarkdown(const FolderComparison& comparison, std::string_view a, std::string_view b,
-                               const std::function<bool(const JudgedCell&)>& isRegression) {
+                               const std::function<bool(const EvaluatedCell&)>& isRegression) {
     TextRows all = tabulate(comparison);
     const auto row = [](const std::vector<std::string>& cells) {
         std::string text = "|";
@@ -125,21 +128,21 @@ std::string comparisonMarkdown(const FolderComparison& comparison, std::string_v
     const std::string head = row(all.header) + row(std::vector<std::string>(all.header.size(), "---"));
     std::string rows, slower;
     std::size_t count = 0;
-    for (std::size_t i = 0; i < comparison.judged.size(); ++i) {
+    for (std::size_t i = 0; i < comparison.evaluated.size(); ++i) {
         rows += row(all.rows[i]);
-        if (!isRegression(comparison.judged[i])) continue;
+        if (!isRegression(comparison.evaluated[i])) continue;
         slower += row(all.rows[i]);
         ++count;
     }
     std::string text = fmt::format(
         "**{} of {} comparisons are slower.** B is `{}`, A is `{}`; ratios of their times with "
         "95 % intervals.\n",
-        count, comparison.judged.size(), b, a);
+        count, comparison.evaluated.size(), b, a);
     if (count > 0) text += "\n" + head + slower;
     for (const FolderCell* cell : comparison.broken)
         text += fmt::format("\n- {}: in B {}\n", labelOf(*cell, comparison.axes), whyBroken(*cell));
-    return text + fmt::format("\n<details><summary>All {} comparisons</summary>\n\n", comparison.judged.size()) + head +
-           rows + "\n</details>\n";
+    return text + fmt::format("\n<details><summary>All {} comparisons</summary>\n\n", comparison.evaluated.size()) +
+           head + rows + "\n</details>\n";
 }
 
 }  // namespace dustbench::bench

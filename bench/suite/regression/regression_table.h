@@ -25,6 +25,6 @@ namespace dustbench::bench {
 /// The same in Markdown for a merge request: a sentence in bold, a table of the regressions (`isRegression`), and all
 /// rows in a collapsed section.
 [[nodiscard]] std::string comparisonMarkdown(const FolderComparison& comparison, std::string_view a, std::string_view b,
-                                             const std::function<bool(const JudgedCell&)>& isRegression);
+                                             const std::function<bool(const EvaluatedCell&)>& isRegression);
 
 }  // namespace dustbench::bench

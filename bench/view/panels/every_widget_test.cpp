@@ -60,10 +60,10 @@ TEST_F(EveryWidget, EveryMethodStandsBesideTheExactPictureAndBesideAnother) {
                 EXPECT_EQ(viewer_->message(), "") << method.id << " beside " << b << ": " << word;
             }
             EXPECT_TRUE(viewer_->maps().flipMean()) << method.id << " beside " << b;
-            const bool isJudged =
-                b == exactPicture && viewer_->session().isJudged() && viewer_->session().exact().whyNotJudged().empty();
-            if (isJudged) {
-                EXPECT_TRUE(viewer_->session().exact().judged().metrics.values.of("flip")) << method.id;
+            const bool isEvaluated = b == exactPicture && viewer_->session().isEvaluated() &&
+                                     viewer_->session().exact().whyNotEvaluated().empty();
+            if (isEvaluated) {
+                EXPECT_TRUE(viewer_->session().exact().evaluated().metrics.values.of("flip")) << method.id;
             }
         }
     }

@@ -24,8 +24,8 @@ std::filesystem::path goldenFile(const std::string& name) {
 }
 
 bool isWritten() {
-    const char* const wish = std::getenv("DUSTBENCH_GOLDEN");
-    return wish && std::string_view(wish) == "write";
+    const char* const requested = std::getenv("DUSTBENCH_GOLDEN");
+    return requested && std::string_view(requested) == "write";
 }
 
 pictures::Image opaque(pictures::Image image) {
@@ -82,7 +82,7 @@ TEST_F(GoldenPictures, OfViews) {
     expectGolden(viewed(Shown::wipe, Channel::overdraw), "overdraw");
     viewer_->split.extent = glm::vec2(0.25f);
     viewer_->split.origin = glm::vec2(0.3f, 0.35f);
-    expectGolden(viewed(Shown::beside, Channel::alpha), "alpha_beside_enlarged");
+    expectGolden(viewed(Shown::sideBySide, Channel::alpha), "alpha_beside_enlarged");
 }
 
 /// The upper part of the panel, down to the list of cameras. The costs below are empty after one frame.

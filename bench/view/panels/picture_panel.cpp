@@ -24,7 +24,7 @@ std::string faultsText(const char* half, const LayerFaults& faults) {
 
 std::string labelOf(Shown shown, std::string_view word) {
     if (shown == Shown::a || shown == Shown::b) return shown == Shown::a ? "A only" : "B only";
-    if (shown == Shown::beside) return "Side by side";
+    if (shown == Shown::sideBySide) return "Side by side";
     if (shown == Shown::flip) return "FLIP";
     return shown == Shown::wipe ? "Wipe" : "Difference";
 }
@@ -158,7 +158,7 @@ void PicturePanel::showChannel(Viewer& viewer, WidgetMap& widgets) {
 
 void PicturePanel::showExact(Viewer& viewer, WidgetMap& widgets) {
     showSwitch("Ground truth in every frame", viewer.exactEveryFrame, widgets);
-    if (!viewer.session().isJudged()) {
+    if (!viewer.session().isEvaluated()) {
         showRemark(viewer.session().isCurrent(Half::b)
                        ? "B is drawn by exact_tiles, which is within 1e-5 of the ground truth. Pause (Space or E) to "
                          "compute the ground truth and the metrics."
@@ -167,7 +167,8 @@ void PicturePanel::showExact(Viewer& viewer, WidgetMap& widgets) {
         return;
     }
     const ExactHalf& exact = viewer.session().exact();
-    exact.whyNotJudged().empty() ? showNumbers(exact.judged().metrics.values) : showRemark(exact.whyNotJudged());
+    exact.whyNotEvaluated().empty() ? showNumbers(exact.evaluated().metrics.values)
+                                    : showRemark(exact.whyNotEvaluated());
     showRemark(fmt::format("ground truth and metrics of frame {}: computed in {:.2f} s", viewer.session().drawnFrame(),
                            exact.seconds()));
 }

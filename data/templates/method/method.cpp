@@ -27,7 +27,7 @@ class @CLASS@ final : public Method {
     void volume(const Frame& frame, VolumeVisitor& visitor) const override { visitor.puffs(frame.dust); }
     void report(const Frame& frame, Facts& facts) const override {
         if (frame.dust.empty()) return;
-        facts.tell("dust_height_max", static_cast<double>(*std::ranges::max_element(frame.dust.y)));
+        facts.set("dust_height_max", static_cast<double>(*std::ranges::max_element(frame.dust.y)));
     }
     MemoryReport memory() const override { return {{"@ID@", 0, points_->gpuBytes()}}; }
     std::int64_t primitives() const override { return static_cast<std::int64_t>(points_->count()); }

@@ -41,7 +41,7 @@ vec3 within(vec3 place) {
 }
 
 // The velocity of an air cell's neighbour along an axis; `side`: 0 for the previous one, 1 for the next one.
-vec3 beside(sampler3D velocity, ivec3 c, int axis, int side) {
+vec3 neighbourVelocity(sampler3D velocity, ivec3 c, int axis, int side) {
     ivec3 other = c + (2 * side - 1) * unit(axis);
     if (inside(other)) return isSolid(other) ? texelFetch(solidVelocity, other, 0).xyz : texelFetch(velocity, other, 0).xyz;
     vec3 own = texelFetch(velocity, c, 0).xyz;
@@ -52,12 +52,12 @@ vec3 beside(sampler3D velocity, ivec3 c, int axis, int side) {
 // The divergence times the spacing, by central differences.
 float divergenceAt(sampler3D velocity, ivec3 c) {
     float sum = 0.0;
-    for (int axis = 0; axis < 3; ++axis) sum += 0.5 * (beside(velocity, c, axis, 1)[axis] - beside(velocity, c, axis, 0)[axis]);
+    for (int axis = 0; axis < 3; ++axis) sum += 0.5 * (neighbourVelocity(velocity, c, axis, 1)[axis] - neighbourVelocity(velocity, c, axis, 0)[axis]);
     return sum;
 }
 
 // The neighbour's pressure: in a solid and beyond a wall that of the cell itself, beyond an open side 0.
-float pressureBeside(sampler3D pressure, ivec3 c, int axis, int side) {
+float neighbourPressure(sampler3D pressure, ivec3 c, int axis, int side) {
     ivec3 other = c + (2 * side - 1) * unit(axis);
     float own = texelFetch(pressure, c, 0).r;
     if (inside(other)) return isSolid(other) ? own : texelFetch(pressure, other, 0).r;

@@ -7,9 +7,9 @@ void main() {
     if (!inside(c)) return;
     vec3 w = vec3(0);
     if (!isSolid(c)) {
-        vec3 x = beside(velocity, c, 0, 1) - beside(velocity, c, 0, 0);
-        vec3 y = beside(velocity, c, 1, 1) - beside(velocity, c, 1, 0);
-        vec3 z = beside(velocity, c, 2, 1) - beside(velocity, c, 2, 0);
+        vec3 x = neighbourVelocity(velocity, c, 0, 1) - neighbourVelocity(velocity, c, 0, 0);
+        vec3 y = neighbourVelocity(velocity, c, 1, 1) - neighbourVelocity(velocity, c, 1, 0);
+        vec3 z = neighbourVelocity(velocity, c, 2, 1) - neighbourVelocity(velocity, c, 2, 0);
         w = 0.5 * vec3(y.z - z.y, z.x - x.z, x.y - y.x);
     }
     imageStore(curl, c, vec4(w, length(w)));

@@ -7,6 +7,6 @@ void main() {
     ivec3 c = ivec3(gl_GlobalInvocationID);
     if (!inside(c)) return;
     float sum = 0.0;
-    for (int n = 0; n < 6; ++n) sum += pressureBeside(pressure, c, n >> 1, n & 1);
+    for (int n = 0; n < 6; ++n) sum += neighbourPressure(pressure, c, n >> 1, n & 1);
     imageStore(result, c, vec4((sum - texelFetch(divergence, c, 0).r) / 6.0));
 }

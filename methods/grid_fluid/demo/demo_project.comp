@@ -9,10 +9,10 @@ void main() {
     vec4 u = texelFetch(velocity, c, 0);
     if (!isSolid(c))
         for (int axis = 0; axis < 3; ++axis) {
-            u[axis] -= 0.5 * (pressureBeside(pressure, c, axis, 1) - pressureBeside(pressure, c, axis, 0));
+            u[axis] -= 0.5 * (neighbourPressure(pressure, c, axis, 1) - neighbourPressure(pressure, c, axis, 0));
             for (int side = 0; side < 2; ++side) {
                 ivec3 other = c + (2 * side - 1) * unit(axis);
-                if (inside(other) ? isSolid(other) : sides[2 * axis + side] == 1) u[axis] = beside(velocity, c, axis, side)[axis];
+                if (inside(other) ? isSolid(other) : sides[2 * axis + side] == 1) u[axis] = neighbourVelocity(velocity, c, axis, side)[axis];
             }
         }
     imageStore(result, c, u);

@@ -57,7 +57,7 @@ void DemoSolver::setSolids(const flow::SolidMask& mask) {
     });
 }
 
-glm::vec3 DemoSolver::beside(const Vectors& velocity, const glm::ivec3& c, int axis, int side) const {
+glm::vec3 DemoSolver::neighbourVelocity(const Vectors& velocity, const glm::ivec3& c, int axis, int side) const {
     const glm::ivec3 other = c + (2 * side - 1) * unit(axis);
     if (isInside(other)) return isSolid(other) ? glm::vec3(solid_.at(other)) : glm::vec3(velocity.at(other));
     glm::vec3 own(velocity.at(c));
@@ -65,7 +65,7 @@ glm::vec3 DemoSolver::beside(const Vectors& velocity, const glm::ivec3& c, int a
     return own;
 }
 
-float DemoSolver::pressureBeside(const Scalars& pressure, const glm::ivec3& c, int axis, int side) const {
+float DemoSolver::neighbourPressure(const Scalars& pressure, const glm::ivec3& c, int axis, int side) const {
     const glm::ivec3 other = c + (2 * side - 1) * unit(axis);
     if (isInside(other)) return isSolid(other) ? pressure.at(c) : pressure.at(other);
     return settings_.sides[static_cast<std::size_t>(2 * axis + side)] == flow::Side::open ? 0 : pressure.at(c);
@@ -74,7 +74,7 @@ float DemoSolver::pressureBeside(const Scalars& pressure, const glm::ivec3& c, i
 float DemoSolver::divergenceAt(const glm::ivec3& c) const {
     float sum = 0;
     for (int axis = 0; axis < 3; ++axis)
-        sum += 0.5f * (beside(velocity_, c, axis, 1)[axis] - beside(velocity_, c, axis, 0)[axis]);
+        sum += 0.5f * (neighbourVelocity(velocity_, c, axis, 1)[axis] - neighbourVelocity(velocity_, c, axis, 0)[axis]);
     return sum;
 }
 
@@ -120,7 +120,9 @@ void DemoSolver::applyForces(float seconds) {
     forCells([&](const glm::ivec3& c) {
         glm::vec3 curl(0);
         if (!isSolid(c)) {
-            const auto slope = [&](int axis) { return beside(velocity_, c, axis, 1) - beside(velocity_, c, axis, 0); };
+            const auto slope = [&](int axis) {
+                return neighbourVelocity(velocity_, c, axis, 1) - neighbourVelocity(velocity_, c, axis, 0);
+            };
             const glm::vec3 x = slope(0), y = slope(1), z = slope(2);
             curl = 0.5f * glm::vec3(y.z - z.y, z.x - x.z, x.y - y.x);
         }
@@ -149,7 +151,7 @@ void DemoSolver::project() {
     for (int sweep = 0; sweep < jacobiSweeps; ++sweep) {
         forCells([&](const glm::ivec3& c) {
             float sum = 0;
-            for (int n = 0; n < 6; ++n) sum += pressureBeside(pressure_, c, n >> 1, n & 1);
+            for (int n = 0; n < 6; ++n) sum += neighbourPressure(pressure_, c, n >> 1, n & 1);
             scalar_.set(c, (sum - vector_.at(c).x) / 6);
         });
         pressure_.swap(scalar_);
@@ -157,13 +159,13 @@ void DemoSolver::project() {
     forCells([&](const glm::ivec3& c) {
         glm::vec4 u = velocity_.at(c);
         for (int axis = 0; axis < 3 && !isSolid(c); ++axis) {
-            u[axis] -= 0.5f * (pressureBeside(pressure_, c, axis, 1) - pressureBeside(pressure_, c, axis, 0));
+            u[axis] -= 0.5f * (neighbourPressure(pressure_, c, axis, 1) - neighbourPressure(pressure_, c, axis, 0));
             for (const int side : {0, 1}) {
                 const glm::ivec3 other = c + (2 * side - 1) * unit(axis);
                 const bool closes =
                     isInside(other) ? isSolid(other)
                                     : settings_.sides[static_cast<std::size_t>(2 * axis + side)] == flow::Side::wall;
-                if (closes) u[axis] = beside(velocity_, c, axis, side)[axis];
+                if (closes) u[axis] = neighbourVelocity(velocity_, c, axis, side)[axis];
             }
         }
         otherVelocity_.set(c, u);

@@ -40,8 +40,8 @@ class DemoSolver final : public flow::Solver {
         return glm::all(glm::greaterThanEqual(c, glm::ivec3(0))) && glm::all(glm::lessThan(c, settings_.box.cells));
     }
     [[nodiscard]] bool isSolid(const glm::ivec3& c) const { return solid_.at(c).w > 0; }
-    [[nodiscard]] glm::vec3 beside(const Vectors& velocity, const glm::ivec3& c, int axis, int side) const;
-    [[nodiscard]] float pressureBeside(const Scalars& pressure, const glm::ivec3& c, int axis, int side) const;
+    [[nodiscard]] glm::vec3 neighbourVelocity(const Vectors& velocity, const glm::ivec3& c, int axis, int side) const;
+    [[nodiscard]] float neighbourPressure(const Scalars& pressure, const glm::ivec3& c, int axis, int side) const;
     [[nodiscard]] float divergenceAt(const glm::ivec3& c) const;
     template <typename Cell>
     void forCells(const Cell& cell) const;

@@ -15,12 +15,12 @@ namespace dustbench::grid_fluid::flow {
 namespace {
 
 constexpr std::size_t blocksOfSlab = 8, maximumRows = 8;  ///< rows of a block; fewer in a flat box
-constexpr std::size_t together = SixteenRecords::count;
+constexpr std::size_t cellsAtOnce = SixteenRecords::count;
 using FieldStrip = CornerStrip<Memory::whole, Reads::samples>;
 using ExtremaStrip = CornerStrip<Memory::whole, Reads::extrema>;
 using WindowStrip = CornerStrip<Memory::ring, Reads::samples>;
 /// Cells by which a path may leave the region, since speeds across a wall are rounding errors next to it.
-constexpr float almost = pathTolerance;
+constexpr float tolerance = pathTolerance;
 
 /// Writes two extra lanes, which the next record of the row, or its ghost, will overwrite.
 [[gnu::always_inline]] inline void storeRecord(float* record, const Float8& value) {
@@ -28,7 +28,7 @@ constexpr float almost = pathTolerance;
 }
 
 void storeFirst(float* to, const Float16& values, std::size_t count) {
-    if (count >= together)
+    if (count >= cellsAtOnce)
         store(to, values);
     else
         std::memcpy(to, &values, count * sizeof(float));
@@ -51,7 +51,7 @@ Triples byComponent(const float* vectors) {
             component(std::integral_constant<int, 2>{})};
 }
 
-constexpr Float16 upwards{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+constexpr Float16 laneIndices{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
 using Int8 = int __attribute__((vector_size(32)));
 
@@ -75,8 +75,8 @@ template <Limit limit, typename Number>
 }
 
 /// The places of sixteen cells of a row, and of their faces.
-[[gnu::always_inline]] inline Triples here(std::size_t cell, int j, int k) {
-    return {static_cast<float>(cell + 1) + upwards, everywhere<Float16>(static_cast<float>(j + 1)),
+[[gnu::always_inline]] inline Triples placesOf(std::size_t cell, int j, int k) {
+    return {static_cast<float>(cell + 1) + laneIndices, everywhere<Float16>(static_cast<float>(j + 1)),
             everywhere<Float16>(static_cast<float>(k + 1))};
 }
 
@@ -108,7 +108,7 @@ class Region {
             const auto minimum = everywhere<Float16>(static_cast<float>(low));
             const auto maximum = everywhere<Float16>(static_cast<float>(high));
             const auto isWithin = [&](const Float16& at) {
-                return (at >= minimum - almost) & (at <= maximum + almost);
+                return (at >= minimum - tolerance) & (at <= maximum + tolerance);
             };
             within &= isWithin(to) & isWithin(from);
             from = atMost(atLeast(to, minimum), maximum);
@@ -208,18 +208,18 @@ void Advection::findPathsOfRow(const Pass& pass, int j, int k) {
     const float* centres = centres_.slab(k) + layout_.at(0, j, -1) * 4;
     CentreStrip strip(centres_.data(), static_cast<int>(centres_.slabs()), layout_);
     strip.lookFrom(std::max(k + 1 - pass.stagger.reachHalfway, 0));
-    alignas(64) std::array<float, 4 * together> found;
-    for (std::size_t i = 0; i < nx; i += together) {
+    alignas(64) std::array<float, 4 * cellsAtOnce> found;
+    for (std::size_t i = 0; i < nx; i += cellsAtOnce) {
         const std::size_t count = nx - i;
         const Triples speed = byComponent(centres + 4 * i);
         const auto back = [&](const Float16& place, const Float16& velocity, int cells) {
             const Float16 middle = fused(everywhere<Float16>(-0.5f * pass.step.cellsPerSpeed), velocity, place);
             return atMost(atLeast(middle, Float16{}), everywhere<Float16>(static_cast<float>(cells + 1)));
         };
-        strip.find({back(static_cast<float>(i + 1) + upwards, speed.x, layout_.nx),
+        strip.find({back(static_cast<float>(i + 1) + laneIndices, speed.x, layout_.nx),
                     back(everywhere<Float16>(static_cast<float>(j + 1)), speed.y, layout_.ny),
                     back(everywhere<Float16>(static_cast<float>(k + 1)), speed.z, layout_.nz)});
-        for (std::size_t c = 0; c < std::min(count, together); ++c) store(&found[4 * c], strip.sample(c));
+        for (std::size_t c = 0; c < std::min(count, cellsAtOnce); ++c) store(&found[4 * c], strip.sample(c));
         const Triples middle = byComponent(found.data());
         const std::array<const Float16*, kept> all{&speed.x, &speed.y, &speed.z, &middle.x, &middle.y, &middle.z};
         for (std::size_t array = 0; array < kept; ++array) storeFirst(velocities(array) + at + i, *all[array], count);
@@ -250,8 +250,8 @@ void Advection::predict(const Pass& pass, const Rows& rows) {
         const Row paths(*this, halfway, j, rows.k);
         const float* own = pass.cells.cell(at);
         const Moving* moving = pass.moving + at;
-        for (std::size_t i = 0; i < count; i += together)
-            corners.find(i, began(paths.at(first + i), here(first + i, j, rows.k), step, layout_), count);
+        for (std::size_t i = 0; i < count; i += cellsAtOnce)
+            corners.find(i, began(paths.at(first + i), placesOf(first + i, j, rows.k), step, layout_), count);
         const FieldStrip::Reader field(corners);
         float* out = corrected ? guess(at) : pass.spare.cell(at);
         for (std::size_t i = 0; i < count; ++i)
@@ -293,9 +293,9 @@ void Advection::findCorrections(const Pass& pass, const Rows& rows) {
     const auto correctStrip = [&](std::size_t firstCell, std::size_t count, int j) {
         const std::size_t at = layout_.at(0, j, k) + firstCell;
         const Row paths(*this, halfway, j, k), speeds(*this, centre, j, k);
-        for (std::size_t i = 0; i < count; i += together) {
+        for (std::size_t i = 0; i < count; i += cellsAtOnce) {
             const std::size_t cell = firstCell + i;
-            PlacesOfCells places = began(paths.at(cell), here(cell, j, k), step, layout_);
+            PlacesOfCells places = began(paths.at(cell), placesOf(cell, j, k), step, layout_);
             beginnings.find(i, places, count);
             const PlacesOfCells speed = speeds.at(cell);
             Int16 within{};

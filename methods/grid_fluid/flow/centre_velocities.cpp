@@ -121,10 +121,10 @@ void CentreVelocities::scroll(glm::ivec3 by, glm::vec3 wind) {
             for (int axis = 0; axis < 3; ++axis) to[3 * i + axis] = wind[axis];
     };
     // No row is written before it has been read.
-    const bool upwards = by.z > 0 || (by.z == 0 && by.y >= 0);
+    const bool ascending = by.z > 0 || (by.z == 0 && by.y >= 0);
     for (std::size_t r = 0; r < layout_.rows(); ++r) {
-        const std::size_t here = upwards ? r : layout_.rows() - 1 - r;
-        const int j = layout_.rowJ(here), k = layout_.rowK(here), fromJ = j + by.y, fromK = k + by.z;
+        const std::size_t rowIndex = ascending ? r : layout_.rows() - 1 - r;
+        const int j = layout_.rowJ(rowIndex), k = layout_.rowK(rowIndex), fromJ = j + by.y, fromK = k + by.z;
         float* to = lastOfRow(j, k);
         const bool had = fromJ >= 0 && fromJ < layout_.ny && fromK >= 0 && fromK < layout_.nz && firstKept < lastKept;
         if (!had) {

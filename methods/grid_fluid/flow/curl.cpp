@@ -39,10 +39,10 @@ void CurlField::findSpeedsOfRow(const CellField& cells, int j, int k) {
     if constexpr (sixteenAtOnce)
         for (; i + SixteenRecords::count <= count; i += SixteenRecords::count) {
             const std::size_t at = i * lanes;
-            const SixteenRecords here(own + at);
-            store(x + i, (here + SixteenRecords(own + at + lanes)).get<0>());
-            store(y + i, (here + SixteenRecords(above + at)).get<1>());
-            store(z + i, (here + SixteenRecords(behind + at)).get<2>());
+            const SixteenRecords centre(own + at);
+            store(x + i, (centre + SixteenRecords(own + at + lanes)).get<0>());
+            store(y + i, (centre + SixteenRecords(above + at)).get<1>());
+            store(z + i, (centre + SixteenRecords(behind + at)).get<2>());
         }
     for (; i < count; ++i) {
         const std::size_t at = i * lanes;

@@ -5,42 +5,42 @@
 namespace dustbench::grid_fluid::flow {
 
 void FieldSurvey::look(const float* records, std::size_t cells) {
-    Vectors greatest = greatest_, zero = zero_;  // in registers
+    Vectors maxima = maxima_, zero = zero_;  // in registers
     const auto lookAt = [&](const float* values) {
         for (std::size_t v = 0; v < vectors; ++v) {
             const auto value = load<Float16>(values + v * 16);
-            greatest[v] = atLeast(greatest[v], value < 0 ? -value : value);
+            maxima[v] = atLeast(maxima[v], value < 0 ? -value : value);
             zero[v] += value * 0.0f;
         }
     };
     const std::size_t floats = cells * lanes;
     std::size_t f = 0;
-    for (; f + together <= floats; f += together) lookAt(records + f);
+    for (; f + floatsAtOnce <= floats; f += floatsAtOnce) lookAt(records + f);
     if (f < floats) {
-        std::array<float, together> rest{};
+        std::array<float, floatsAtOnce> rest{};
         std::copy(records + f, records + floats, rest.begin());
         lookAt(rest.data());
     }
-    greatest_ = greatest;
+    maxima_ = maxima;
     zero_ = zero;
 }
 
 void FieldSurvey::add(const FieldSurvey& other) {
     for (std::size_t v = 0; v < vectors; ++v) {
-        greatest_[v] = atLeast(greatest_[v], other.greatest_[v]);
+        maxima_[v] = atLeast(maxima_[v], other.maxima_[v]);
         zero_[v] += other.zero_[v];
     }
 }
 
-std::array<float, lanes> FieldSurvey::greatest() const {
+std::array<float, lanes> FieldSurvey::maxima() const {
     std::array<float, lanes> ofLane{};
-    for (std::size_t p = 0; p < together; ++p)
-        ofLane[p % lanes] = std::max(ofLane[p % lanes], greatest_[p / 16][p % 16]);
+    for (std::size_t p = 0; p < floatsAtOnce; ++p)
+        ofLane[p % lanes] = std::max(ofLane[p % lanes], maxima_[p / 16][p % 16]);
     return ofLane;
 }
 
 bool FieldSurvey::finite() const {
-    for (std::size_t p = 0; p < together; ++p)
+    for (std::size_t p = 0; p < floatsAtOnce; ++p)
         if (!(zero_[p / 16][p % 16] == 0)) return false;
     return true;
 }

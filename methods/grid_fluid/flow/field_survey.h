@@ -16,15 +16,15 @@ class FieldSurvey {
     void look(const float* records, std::size_t cells);
     void add(const FieldSurvey& other);
     /// By lane; unspecified unless `finite`.
-    [[nodiscard]] std::array<float, lanes> greatest() const;
+    [[nodiscard]] std::array<float, lanes> maxima() const;
     [[nodiscard]] bool finite() const;
 
  private:
     /// Eight records are three vectors; place p of these 48 floats is lane p mod 6.
-    static constexpr std::size_t vectors = 3, together = vectors * 16;
+    static constexpr std::size_t vectors = 3, floatsAtOnce = vectors * 16;
     using Vectors = std::array<Float16, vectors>;
 
-    Vectors greatest_{}, zero_{};  ///< `zero_` is not 0 if a number was not finite
+    Vectors maxima_{}, zero_{};  ///< `zero_` is not 0 if a number was not finite
 };
 
 }  // namespace dustbench::grid_fluid::flow

@@ -41,7 +41,7 @@ TEST(FieldSurvey, FindsTheGreatestMagnitudesOfAllItsRows) {
             all.add(part);
         }
         EXPECT_TRUE(all.finite());
-        EXPECT_EQ(all.greatest(), expected);
+        EXPECT_EQ(all.maxima(), expected);
     }
 }
 

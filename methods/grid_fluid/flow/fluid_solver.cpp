@@ -59,7 +59,7 @@ void FluidSolver::setSolids(const SolidMask& mask) {
     const SolidCells::Change change = solids_.set(mask, cells_);
     sameSolids_ = false;
     covered_ += change.coveredDensity;
-    maximumSpeeds_ = glm::max(maximumSpeeds_, change.greatestSpeeds);
+    maximumSpeeds_ = glm::max(maximumSpeeds_, change.maximumSpeeds);
 }
 
 StepReport FluidSolver::step(double stepSeconds, std::span<const FluidSource> sources, const StageClock& clock) {
@@ -195,10 +195,10 @@ void FluidSolver::findMaximumSpeeds() {
 
 void FluidSolver::note(const FieldSurvey& survey) {
     if (!survey.finite()) throwLostNumber(cells_, layout_, steps_);
-    const auto greatest = survey.greatest();
+    const auto maxima = survey.maxima();
     for (int axis = 0; axis < 3; ++axis)
         maximumSpeeds_[axis] =
-            std::max(greatest[static_cast<std::size_t>(axis)], std::fabs(settings_.windMetresPerSecond[axis]));
+            std::max(maxima[static_cast<std::size_t>(axis)], std::fabs(settings_.windMetresPerSecond[axis]));
     speedsKnown_ = true;
 }
 

@@ -156,11 +156,11 @@ std::vector<PlainRecord> plainAdvection(const CellField& from, const CellLayout&
     forMoving([&](std::size_t at, std::size_t lane, int k, const glm::dvec3& began, const glm::dvec3& ahead) {
         glm::dvec3 last(layout.nx, layout.ny, layout.nz);
         if (lane < 3) last[static_cast<int>(lane)] += 1;  // the face on the far side
-        const auto almost = static_cast<double>(pathTolerance);
+        const auto tolerance = static_cast<double>(pathTolerance);
         const glm::dvec3 low(1, 1, std::max(1.0, k + 1 - maximumSlabs));
         last.z = std::min(last.z, k + 1 + maximumSlabs);
         const auto leaves = [&](const glm::dvec3& x) {
-            return glm::any(glm::lessThan(x, low - almost)) || glm::any(glm::greaterThan(x, last + almost));
+            return glm::any(glm::lessThan(x, low - tolerance)) || glm::any(glm::greaterThan(x, last + tolerance));
         };
         if (leaves(began) || leaves(ahead)) return;
         double minimum = INFINITY, maximum = -INFINITY;

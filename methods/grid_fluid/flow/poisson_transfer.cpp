@@ -172,11 +172,11 @@ void PoissonLevel::addToBlack(const PoissonLevel& coarse, int k) {
     constexpr float nearest = overcorrection * 0.75f * 0.75f, near = overcorrection * 0.75f * 0.25f,
                     far = overcorrection * 0.25f * 0.25f;
     for (int j = 0; j < layout.ny; ++j) {
-        const int besideJ = (j >> 1) + ((j & 1) != 0 ? 1 : -1), besideK = (k >> 1) + ((k & 1) != 0 ? 1 : -1);
+        const int neighbourJ = (j >> 1) + ((j & 1) != 0 ? 1 : -1), neighbourK = (k >> 1) + ((k & 1) != 0 ? 1 : -1);
         const float* a = coarse.natural_ + from.at(-1, j >> 1, k >> 1);
-        const float* b = coarse.natural_ + from.at(-1, besideJ, k >> 1);
-        const float* c = coarse.natural_ + from.at(-1, j >> 1, besideK);
-        const float* d = coarse.natural_ + from.at(-1, besideJ, besideK);
+        const float* b = coarse.natural_ + from.at(-1, neighbourJ, k >> 1);
+        const float* c = coarse.natural_ + from.at(-1, j >> 1, neighbourK);
+        const float* d = coarse.natural_ + from.at(-1, neighbourJ, neighbourK);
         float column[2050];
         loop(static_cast<std::size_t>(from.nx) + 2,
              [&](std::size_t m) { column[m] = nearest * a[m] + near * (b[m] + c[m]) + far * d[m]; });

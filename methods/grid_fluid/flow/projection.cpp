@@ -26,16 +26,16 @@ void divergenceOfRow(const CellField& cells, const CellLayout& layout, const std
     forCells(
         conductance + at, static_cast<std::size_t>(layout.nx),
         [&](std::size_t i) {
-            const SixteenRecords here(own + i * lanes);
-            store(&sums[i], (SixteenRecords(own + (i + 1) * lanes) - here).get<0>() +
-                                (SixteenRecords(above + i * lanes) - here).get<1>() +
-                                (SixteenRecords(behind + i * lanes) - here).get<2>());
+            const SixteenRecords centre(own + i * lanes);
+            store(&sums[i], (SixteenRecords(own + (i + 1) * lanes) - centre).get<0>() +
+                                (SixteenRecords(above + i * lanes) - centre).get<1>() +
+                                (SixteenRecords(behind + i * lanes) - centre).get<2>());
         },
         [&](std::size_t i) {
-            const float* here = own + i * lanes;
+            const float* centre = own + i * lanes;
             sums[i] = conductance[at + i] != 1 ? 0.0f
-                                               : (here[lanes] - here[0]) + ((above + i * lanes)[1] - here[1]) +
-                                                     ((behind + i * lanes)[2] - here[2]);
+                                               : (centre[lanes] - centre[0]) + ((above + i * lanes)[1] - centre[1]) +
+                                                     ((behind + i * lanes)[2] - centre[2]);
         });
 }
 

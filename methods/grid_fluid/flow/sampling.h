@@ -72,8 +72,8 @@ class CornerStrip {
         std::array<Int16, 4> corners;
         for (std::size_t place = 0; place < 4; ++place)
             corners[place] = findCorner(place, i, x[place], y[place], z[place]);
-        constexpr Int16 upwards{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-        const Int16 cell = upwards + static_cast<int>(i);
+        constexpr Int16 laneIndices{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+        const Int16 cell = laneIndices + static_cast<int>(i);
         const Int16 counts = cell < static_cast<int>(cells);
         if (i == 0) elsewhereCount_ = 0;
         for (std::size_t lane = 0; lane < 3; ++lane)

@@ -103,12 +103,12 @@ class SixteenRecords {
 template <typename SixteenCells, typename Cell>
 [[gnu::always_inline]] inline void forCells(const std::uint8_t* conductance, std::size_t cells,
                                             const SixteenCells& sixteenCells, const Cell& cell) {
-    constexpr std::size_t together = SixteenRecords::count;
+    constexpr std::size_t cellsAtOnce = SixteenRecords::count;
     std::size_t i = 0;
     while (i < cells) {
-        const std::size_t end = std::min(i + together, cells);
+        const std::size_t end = std::min(i + cellsAtOnce, cells);
         const auto isFluid = [](std::uint8_t conducts) { return conducts == 1; };
-        if (sixteenAtOnce && end == i + together && std::all_of(conductance + i, conductance + end, isFluid)) {
+        if (sixteenAtOnce && end == i + cellsAtOnce && std::all_of(conductance + i, conductance + end, isFluid)) {
             sixteenCells(i);
             i = end;
         } else {

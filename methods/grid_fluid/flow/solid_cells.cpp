@@ -48,7 +48,7 @@ SolidCells::Change SolidCells::set(const SolidMask& mask, CellField& cells) {
     check(mask, layout_);
     Change change;
     change.coveredDensity = cover(mask, cells);
-    if (!mask.body.empty()) change.greatestSpeeds = setFaces(mask, cells);
+    if (!mask.body.empty()) change.maximumSpeeds = setFaces(mask, cells);
     findMoving();
     findRim(cells);
     return change;
@@ -96,7 +96,7 @@ glm::vec3 SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
     const auto speedOf = [&](std::uint8_t body, glm::ivec3 cell, int axis) {
         return mask.velocityOf(body, indexOf(cell), cell)[axis];
     };
-    glm::vec3 greatest(0);
+    glm::vec3 maximum(0);
     std::mutex mutex;
     for (int axis = 0; axis < 3; ++axis) {
         const auto step = std::array<std::size_t, 3>{1, layout_.row, layout_.slab}[static_cast<std::size_t>(axis)];
@@ -129,10 +129,10 @@ glm::vec3 SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
                 }
             }
             const std::scoped_lock lock(mutex);
-            greatest[axis] = std::max(greatest[axis], ofBlock);
+            maximum[axis] = std::max(maximum[axis], ofBlock);
         });
     }
-    return greatest;
+    return maximum;
 }
 
 void SolidCells::findMoving() {
@@ -174,11 +174,11 @@ void SolidCells::findRim(const CellField& cells) {
                 if (own[i] == 1) continue;
                 const std::size_t at = first + static_cast<std::size_t>(i);
                 const auto add = [&](std::size_t lane) {
-                    const bool isBeside = std::ranges::any_of(neighbours, [&](std::ptrdiff_t to) {
+                    const bool isNeighbour = std::ranges::any_of(neighbours, [&](std::ptrdiff_t to) {
                         return (moving_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at) + to)] &
                                 bitOf(lane)) != 0;
                     });
-                    if (isBeside)
+                    if (isNeighbour)
                         rim.push_back({static_cast<std::uint32_t>(at), static_cast<std::uint8_t>(lane),
                                        lane < 3 ? cells.cell(at)[lane] : 0});
                 };

@@ -23,8 +23,8 @@ class SolidCells {
 
     /// Changes that new solids make to the state.
     struct Change {
-        double coveredDensity = 0;    ///< lost because solids cover it, summed over cells
-        glm::vec3 greatestSpeeds{0};  ///< of the solids' faces across x, y and z
+        double coveredDensity = 0;   ///< lost because solids cover it, summed over cells
+        glm::vec3 maximumSpeeds{0};  ///< of the solids' faces across x, y and z
     };
     /// Replaces all solids. Faces of solids get their speeds, and faces of uncovered air keep them; both are written to
     /// `cells`. Throws InputError if sizes do not match, a velocity is not finite, or no fluid remains.

@@ -7,7 +7,7 @@ layout(std430, binding = 4) restrict readonly buffer GuessCarried { vec2 guessCa
 layout(std430, binding = 6) restrict writeonly buffer MovingCorrections { vec4 movingCorrections[]; };
 layout(std430, binding = 7) restrict writeonly buffer CarriedCorrections { vec2 carriedCorrections[]; };
 
-const float almost = PATH_TOLERANCE;  // cells by which a path may leave, since speeds across a wall are rounding errors
+const float tolerance = PATH_TOLERANCE;  // cells by which a path may leave, since speeds across a wall are rounding errors
 
 // LIMIT as flow::Limit: 0 clamp, 1 revert, 2 none.
 vec3 limited(vec3 value, vec3 first, vec3 low, vec3 high) {
@@ -40,7 +40,7 @@ bool follow(ivec3 c, int kind, vec3 velocity, inout vec3 place) {
     low.z = max(low.z, float(c.z + 1) - reach);
     high.z = min(high.z, float(c.z + 1) + reach);
     vec3 ahead = place + 2.0 * cellsPerSpeed * velocity;
-    bool stays = all(greaterThanEqual(min(ahead, place), low - almost)) && all(lessThanEqual(max(ahead, place), high + almost));
+    bool stays = all(greaterThanEqual(min(ahead, place), low - tolerance)) && all(lessThanEqual(max(ahead, place), high + tolerance));
     place = clamp(ahead, low, high);
     return stays;
 }

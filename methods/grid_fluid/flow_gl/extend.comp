@@ -4,7 +4,7 @@ layout(std430, binding = 1) restrict buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict buffer Carried { vec2 carried[]; };
 uniform int slip;
 
-int beside(int cell, int face) {
+int neighbourAcross(int cell, int face) {
     return cell + (face % 2 == 0 ? -1 : 1) * stepAlong(face / 2);
 }
 
@@ -12,7 +12,7 @@ void extendCentre(int cell) {
     vec3 sum = vec3(0);
     float found = 0.0;
     for (int face = 0; face < 6; ++face) {
-        int other = beside(cell, face);
+        int other = neighbourAcross(cell, face);
         if (!isFluid(other)) continue;
         sum += vec3(moving[other].w, carried[other]);
         found += 1.0;
@@ -25,7 +25,7 @@ void extendCentre(int cell) {
 void extendFace(int cell, int axis) {
     float sum = 0.0, found = 0.0;
     for (int face = 0; face < 6; ++face) {
-        int other = beside(cell, face);
+        int other = neighbourAcross(cell, face);
         if (!moves(other, axis)) continue;
         sum += moving[other][axis];
         found += 1.0;

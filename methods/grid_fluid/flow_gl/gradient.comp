@@ -11,9 +11,9 @@ void main() {
     for (int axis = 0; axis < 3; ++axis) {
         ivec3 before = c;
         before[axis] -= 1;
-        ivec3 beside = c;
-        beside[axis] = 0;
-        if (!inside(beside)) continue;  // the face of another side
+        ivec3 onFace = c;
+        onFace[axis] = 0;
+        if (!inside(onFace)) continue;  // the face of another side
         uint own = conductance(cell), other = conductance(cell - stepAlong(axis));
         if (own == 0u || other == 0u) continue;
         record[axis] -= float(max(own, other)) * (pressure[place(c)] - pressure[place(before)]);

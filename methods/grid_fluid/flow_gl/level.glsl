@@ -10,10 +10,10 @@ int place(ivec3 c) {
     return placeIn(c, cells);
 }
 
-// Index of a cell, and that of the cell with the same number in the other colour (`twin`), which contains all of its
-// neighbours: along x they are at `twin - before` and the next index, along y a row away, along z a slab away.
+// Index of a cell, and that of the cell with the same number in the other colour (`otherColour`), which contains all of its
+// neighbours: along x they are at `otherColour - before` and the next index, along y a row away, along z a slab away.
 struct Star {
-    int own, twin, before, row, slab;
+    int own, otherColour, before, row, slab;
 };
 
 Star starAround(ivec3 c) {

@@ -9,9 +9,9 @@ float diagonal(Star star) {
 }
 
 float neighbours(Star star) {
-    int x = star.twin - star.before;
-    return pressure[x] + pressure[x + 1] + (pressure[star.twin - star.row] + pressure[star.twin + star.row]) +
-           (pressure[star.twin - star.slab] + pressure[star.twin + star.slab]);
+    int x = star.otherColour - star.before;
+    return pressure[x] + pressure[x + 1] + (pressure[star.otherColour - star.row] + pressure[star.otherColour + star.row]) +
+           (pressure[star.otherColour - star.slab] + pressure[star.otherColour + star.slab]);
 }
 #else
 // The faces to the next cells along x, y and z, and the sum of all six.
@@ -23,9 +23,9 @@ float diagonal(Star star) {
 
 float neighbours(Star star) {
     vec4 own = faces[star.own];
-    int x = star.twin - star.before, y = star.twin - star.row, z = star.twin - star.slab;
+    int x = star.otherColour - star.before, y = star.otherColour - star.row, z = star.otherColour - star.slab;
     return faces[x].x * pressure[x] + own.x * pressure[x + 1] +
-           (faces[y].y * pressure[y] + own.y * pressure[star.twin + star.row]) +
-           (faces[z].z * pressure[z] + own.z * pressure[star.twin + star.slab]);
+           (faces[y].y * pressure[y] + own.y * pressure[star.otherColour + star.row]) +
+           (faces[z].z * pressure[z] + own.z * pressure[star.otherColour + star.slab]);
 }
 #endif

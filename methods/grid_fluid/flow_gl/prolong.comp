@@ -15,12 +15,12 @@ uniform float times;
 void main() {
     ivec3 c = cellOfColour(1);
     if (!inside(c) || diagonal(c) <= 0.0) return;
-    ivec3 own = c / 2, beside = own + 2 * (c & 1) - 1;
+    ivec3 own = c / 2, neighbour = own + 2 * (c & 1) - 1;
     float sum = 0.0;
     for (int n = 0; n < 8; ++n) {
         bvec3 far = bvec3(n & 1, n & 2, n & 4);
         vec3 weights = mix(vec3(0.75), vec3(0.25), far);
-        sum += weights.x * weights.y * weights.z * wide[atIn(mix(own, beside, far), coarse)];
+        sum += weights.x * weights.y * weights.z * wide[atIn(mix(own, neighbour, far), coarse)];
     }
     pressure[place(c)] += times * sum;
 }

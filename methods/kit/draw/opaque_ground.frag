@@ -3,7 +3,7 @@
 layout(location = 0) in vec3 fromEye;
 layout(location = 1) in vec2 place;
 #ifdef RELIEF
-layout(location = 2) in vec3 upwards;
+layout(location = 2) in vec3 groundNormal;
 #endif
 #ifdef TRACK
 layout(location = 3) in float acrossTrack;
@@ -36,7 +36,7 @@ void main() {
     albedo *= trackFactor();
 #endif
 #ifdef RELIEF
-    vec3 normal = normalize(upwards);
+    vec3 normal = normalize(groundNormal);
 #else
     vec3 normal = vec3(0.0, 1.0, 0.0);
 #endif

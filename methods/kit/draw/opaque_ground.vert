@@ -11,7 +11,7 @@ layout(location = 3) out float acrossTrack;
 layout(location = 0) out vec3 fromEye;
 layout(location = 1) out vec2 place;
 #ifdef RELIEF
-layout(location = 2) out vec3 upwards;
+layout(location = 2) out vec3 groundNormal;
 #endif
 
 invariant gl_Position;
@@ -20,7 +20,7 @@ void main() {
     fromEye = position + anchorFromEye;
     place = position.xz * TILES_PER_METRE + anchorPhase;
 #ifdef RELIEF
-    upwards = normal;
+    groundNormal = normal;
 #endif
 #ifdef TRACK
     acrossTrack = position.z + anchorAcross;

@@ -11,8 +11,8 @@ struct PuffOnRay {
 PuffOnRay puffOnRay(vec4 centre, float logDepth, vec3 direction, float sceneMetres) {
     PuffOnRay puff;
     puff.foot = dot(centre.xyz, direction);
-    vec3 beside = (centre.xyz - puff.foot * direction) * centre.w;
-    puff.whole = exp2(logDepth - 1.44269504 * dot(beside, beside));
+    vec3 perpendicular = (centre.xyz - puff.foot * direction) * centre.w;
+    puff.whole = exp2(logDepth - 1.44269504 * dot(perpendicular, perpendicular));
     puff.metres = 1.0 / centre.w;
     puff.begin = -puff.foot * centre.w;
     puff.end = (sceneMetres - puff.foot) * centre.w;

@@ -27,7 +27,7 @@ constexpr std::array<const char*, 8> parts{"scenes", "drives", "particles", "tex
 fs::path checkedFolder(std::string_view option, const std::string& named) {
     const fs::path folder = fs::absolute(named).lexically_normal();
     if (!fs::exists(folder))
-        throw InputError(fmt::format("{}: '{}': no such folder{}", option, named, nearestBeside(folder)));
+        throw InputError(fmt::format("{}: '{}': no such folder{}", option, named, didYouMean(folder)));
     if (!fs::is_directory(folder))
         throw InputError(fmt::format("{}: '{}': is a file, expected a folder of data", option, named));
     const bool holdsData = fs::is_directory(folder / "papers") || std::ranges::any_of(parts, [&](const char* part) {
@@ -135,21 +135,21 @@ std::string fromFile(const fs::path& from, const std::string& nameOrFile, std::s
 }
 
 fs::path fileNamedBy(const fs::path& from, std::string_view folder, const std::string& named) {
-    const fs::path beside = (from.parent_path() / named).lexically_normal();
+    const fs::path relativeToFile = (from.parent_path() / named).lexically_normal();
     std::vector<std::string> tried;
     const auto isThere = [&](const fs::path& file) {
         if (fs::is_regular_file(file)) return true;
         if (std::ranges::find(tried, file.string()) == tried.end()) tried.push_back(file.string());
         return false;
     };
-    fs::path found = isThere(beside) ? beside : fs::path();
+    fs::path found = isThere(relativeToFile) ? relativeToFile : fs::path();
     if (found.empty() && fs::path(named).is_relative())
         for (const fs::path& data : dataFolders())
             if (const fs::path file = (data / folder / named).lexically_normal(); found.empty() && isThere(file))
                 found = file;
     if (found.empty())
         throw InputError(
-            fmt::format("'{}': no such file, tried {}{}", named, fmt::join(tried, ", "), nearestBeside(beside)));
+            fmt::format("'{}': no such file, tried {}{}", named, fmt::join(tried, ", "), didYouMean(relativeToFile)));
     for (const std::string& elsewhere : tried) noteSearch(elsewhere);
     noteInput(found);
     return found;
@@ -164,7 +164,7 @@ fs::path findData(std::string_view kind, std::string_view folder, std::string_vi
             return file;
         }
         if (!fs::is_regular_file(file))
-            throw InputError(fmt::format("{} file '{}': no such file{}", kind, nameOrFile, nearestBeside(file)));
+            throw InputError(fmt::format("{} file '{}': no such file{}", kind, nameOrFile, didYouMean(file)));
         noteInput(file);
         return file;
     }
@@ -176,7 +176,7 @@ fs::path findData(std::string_view kind, std::string_view folder, std::string_vi
     return file;
 }
 
-std::string nearestBeside(const fs::path& missing) {
+std::string didYouMean(const fs::path& missing) {
     std::vector<std::string> names;
     std::error_code error;
     const fs::path parent = missing.has_parent_path() ? missing.parent_path() : fs::path(".");

@@ -53,6 +53,6 @@ DUSTBENCH_API void useDataFolders(std::string_view option, const std::vector<std
                                                            std::string_view nameOrFile, std::string_view extension);
 
 /// For messages: ` (did you mean 'plain.toml'?)`, or empty if no neighbour of `missing` has a similar name.
-[[nodiscard]] DUSTBENCH_API std::string nearestBeside(const std::filesystem::path& missing);
+[[nodiscard]] DUSTBENCH_API std::string didYouMean(const std::filesystem::path& missing);
 
 }  // namespace dustbench::files

@@ -58,14 +58,14 @@ TEST_F(DataFolders, AddNamesAndTheFirstThatHasANameWins) {
 }
 
 TEST_F(DataFolders, AFileNamedInAFileLiesBesideItElseAmongTheData) {
-    const fs::path beside = add("own/meshes", "stone.ply"), both = add("mine", "shapes/meshes/stone.ply"),
+    const fs::path relativeToFile = add("own/meshes", "stone.ply"), both = add("mine", "shapes/meshes/stone.ply"),
                    data = add("mine", "shapes/meshes/tree.ply");
     (void)add("theirs", "shapes/meshes/tree.ply");
     const fs::path from = folder_.path() / "own" / "shape.toml";
     useDataFolders("--data", {at("mine"), at("theirs")});
     const auto named = [&](const std::string& file) { return fileNamedBy(from, "shapes", file); };
-    EXPECT_EQ(named("meshes/stone.ply"), beside);
-    EXPECT_EQ(named("./meshes/../meshes/stone.ply"), beside);
+    EXPECT_EQ(named("meshes/stone.ply"), relativeToFile);
+    EXPECT_EQ(named("./meshes/../meshes/stone.ply"), relativeToFile);
     EXPECT_EQ(named("meshes/tree.ply"), data);
     EXPECT_EQ(named("meshes/hare.ply"), dataFolder() / "shapes/meshes/hare.ply");
     EXPECT_EQ(named(both.string()), both);
@@ -77,7 +77,7 @@ TEST_F(DataFolders, AFileNamedInAFileLiesBesideItElseAmongTheData) {
     EXPECT_THAT(inputError([&] { (void)named("meshes/stome.ply"); }),
                 AllOf(HasSubstr("'meshes/stome.ply': no such file, tried " + at("own/meshes/stome.ply") + ", " +
                                 at("mine/shapes/meshes/stome.ply") + ", "),
-                      HasSubstr("did you mean '" + beside.string() + "'?")));
+                      HasSubstr("did you mean '" + relativeToFile.string() + "'?")));
     EXPECT_EQ(inputError([&] { (void)named("/nowhere/a.ply"); }),
               "'/nowhere/a.ply': no such file, tried /nowhere/a.ply");
 }

@@ -21,12 +21,12 @@ fs::path ownFile() {
 
 }  // namespace
 
-fs::path besideKit(const std::string& name) {
+fs::path inKitFolder(const std::string& name) {
     return ownFile().parent_path() / name;
 }
 
 void* functionOf(const std::string& name, const std::string& function, const std::string& what) {
-    const fs::path file = besideKit("lib" + name + ".so");
+    const fs::path file = inKitFolder("lib" + name + ".so");
     void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     void* address = library == nullptr ? nullptr : dlsym(library, function.c_str());
     if (address == nullptr) {

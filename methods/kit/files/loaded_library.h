@@ -8,7 +8,7 @@
 namespace dustbench::files {
 
 /// The path of the file `name` in that folder. The file need not exist.
-[[nodiscard]] std::filesystem::path besideKit(const std::string& name);
+[[nodiscard]] std::filesystem::path inKitFolder(const std::string& name);
 
 /// The address of `function` in `lib<name>.so` next to the kit. The library is never unloaded. `what` names the
 /// purpose in messages: `pictures`. Throws std::runtime_error if either is missing.

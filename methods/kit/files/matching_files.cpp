@@ -99,7 +99,7 @@ std::vector<fs::path> matchingFiles(const fs::path& pattern) {
     std::vector<fs::path> found = foundFiles(pattern);
     std::error_code error;
     if (found.empty() || !fs::is_regular_file(found.front(), error))
-        throw InputError(pattern.string() + ": no such file" + (isPattern(pattern) ? "" : nearestBeside(pattern)));
+        throw InputError(pattern.string() + ": no such file" + (isPattern(pattern) ? "" : didYouMean(pattern)));
     if (isPattern(pattern)) noteSearch(pattern);
     for (const fs::path& file : found) noteInput(file);
     return found;

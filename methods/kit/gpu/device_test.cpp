@@ -21,9 +21,9 @@ namespace {
 using testing::HasSubstr;
 
 /// A context that does not belong to gpu/; current from construction.
-class StrangersContext {
+class ForeignContext {
  public:
-    StrangersContext(int major, int minor, EGLint profile) {
+    ForeignContext(int major, int minor, EGLint profile) {
         eglInitialize(display_, nullptr, nullptr);
         eglBindAPI(EGL_OPENGL_API);
         const std::array<EGLint, 9> attributes{EGL_CONTEXT_MAJOR_VERSION,
@@ -38,12 +38,12 @@ class StrangersContext {
         context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
         eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
     }
-    ~StrangersContext() {
+    ~ForeignContext() {
         eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         eglDestroyContext(display_, context_);
     }
-    StrangersContext(const StrangersContext&) = delete;
-    StrangersContext& operator=(const StrangersContext&) = delete;
+    ForeignContext(const ForeignContext&) = delete;
+    ForeignContext& operator=(const ForeignContext&) = delete;
 
     [[nodiscard]] bool isCurrent() const { return context_ != EGL_NO_CONTEXT && eglGetCurrentContext() == context_; }
 
@@ -86,7 +86,7 @@ class Asked {
 }  // namespace
 
 TEST(AdoptedDevice, DrawsWithAContextThatStaysItsMakers) {
-    const StrangersContext context(4, 5, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT);
+    const ForeignContext context(4, 5, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT);
     ASSERT_TRUE(context.isCurrent());
     for (int i = 0; i < 2; ++i) {
         {
@@ -109,14 +109,14 @@ TEST(AdoptedDevice, TakesNoContextThatIsTooOldOrMissing) {
     const auto adopt = [] { return inputError([] { const Device device = Device::adoptCurrent(); }); };
     EXPECT_THAT(adopt(), HasSubstr("no context is current"));
     {
-        const StrangersContext context(4, 5, EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT);
+        const ForeignContext context(4, 5, EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT);
         if (context.isCurrent()) {
             EXPECT_THAT(adopt(), HasSubstr("core"));
         }
     }
     {
         // Core profiles do not exist in this version: Mesa creates the requested version regardless.
-        const StrangersContext context(2, 1, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT);
+        const ForeignContext context(2, 1, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT);
         ASSERT_TRUE(context.isCurrent());
         EXPECT_THAT(adopt(), HasSubstr("the current context is '"));
     }
@@ -124,13 +124,13 @@ TEST(AdoptedDevice, TakesNoContextThatIsTooOldOrMissing) {
 
 TEST(Device, LeavesAnotherContextCurrentThatWasMadeCurrentMeanwhile) {
     auto device = std::make_unique<Device>();
-    const StrangersContext context(4, 5, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT);
+    const ForeignContext context(4, 5, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT);
     device.reset();
     EXPECT_TRUE(context.isCurrent());
 }
 
 TEST(Device, ListsAdaptersAndLeavesNothingBehind) {
-    const StrangersContext context(4, 5, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT);
+    const ForeignContext context(4, 5, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT);
     const std::vector<Adapter> adapters = listAdapters();
     ASSERT_FALSE(adapters.empty());
     EXPECT_TRUE(context.isCurrent());

@@ -60,8 +60,8 @@ std::string nodeOf(EGLDeviceEXT device, const char* extensions) {
 }
 
 Adapter describe(EGLDeviceEXT device, int index) {
-    const char* told = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
-    const char* extensions = told ? told : "";
+    const char* reported = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
+    const char* extensions = reported ? reported : "";
     Adapter adapter{.index = index, .name = "EGL device " + std::to_string(index) + nodeOf(device, extensions)};
     if (epoxy_extension_in_string(extensions, "EGL_MESA_device_software")) adapter.kind = Adapter::Kind::software;
     return adapter;

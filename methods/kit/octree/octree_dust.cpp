@@ -304,9 +304,9 @@ void OctreeDust::volume(const Frame&, VolumeVisitor& visitor) const {
 }
 
 void OctreeDust::report(const Frame& frame, Facts& facts) const {
-    facts.tell("clipped", clipped_);
-    facts.tell("structure_bytes", static_cast<std::int64_t>(builder_->structureBytes(tree_)));
-    if (settings_.worldGrows) facts.tell("world_edge_max", cloud_.lattice.edgeMetres);
+    facts.set("clipped", clipped_);
+    facts.set("structure_bytes", static_cast<std::int64_t>(builder_->structureBytes(tree_)));
+    if (settings_.worldGrows) facts.set("world_edge_max", cloud_.lattice.edgeMetres);
     if (!facts.wants("mass_kept")) return;
     double ofParticles = 0, outside = 0, built = 0, ofShown = 0;
     for (std::size_t i = 0; i < frame.dust.size(); ++i) {
@@ -318,11 +318,11 @@ void OctreeDust::report(const Frame& frame, Facts& facts) const {
     if (!(ofParticles > 0)) return;
     for (const float mass : cloud_.mass) built += static_cast<double>(mass);
     for (const float mass : shown().mass) ofShown += static_cast<double>(mass);
-    facts.tell("mass_kept", ofShown / ofParticles);
+    facts.set("mass_kept", ofShown / ofParticles);
     // With the other policies a voxel keeps only one of its particles; opacity by age alone does not conserve mass.
     const bool keepsAll = settings_.tree.policy == OpacityPolicy::accumulate && !byAge_;
     if (settings_.worldGrows)
-        facts.tell("mass_lost", keepsAll ? std::abs(1 - built / ofParticles) : outside / ofParticles);
+        facts.set("mass_lost", keepsAll ? std::abs(1 - built / ofParticles) : outside / ofParticles);
 }
 
 MemoryReport OctreeDust::memory() const {

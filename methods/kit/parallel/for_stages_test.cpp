@@ -19,10 +19,10 @@ TEST(ForStages, EachFindsItsNeighboursOneStageBehindAndNoneAhead) {
                     ASSERT_LT(slab, slabs);
                     EXPECT_EQ(done[slab], stage);
                     // The neighbours have done the previous stage, and none that overwrites the input of this one.
-                    for (const std::size_t beside : {slab - 1, slab + 1})
-                        if (beside < slabs) {
-                            EXPECT_GE(done[beside], stage) << slabs << " slabs, stage " << stage << " of " << stages;
-                            EXPECT_LE(done[beside], stage + 1);
+                    for (const std::size_t neighbour : {slab - 1, slab + 1})
+                        if (neighbour < slabs) {
+                            EXPECT_GE(done[neighbour], stage) << slabs << " slabs, stage " << stage << " of " << stages;
+                            EXPECT_LE(done[neighbour], stage + 1);
                         }
                     ++done[slab];
                 });

@@ -181,7 +181,7 @@ void AttractionTree::collect(const Cell& group, float openingAngle, FarBodies fa
     for (std::uint32_t c = 0; c < cells_.size();) {
         const Cell& cell = cells_[c];
         if (cell.edge * cell.edge < angle2 * box.distance2(cell.x, cell.y, cell.z)) {
-            if (farBodies == FarBodies::together) sources.add(cell.x, cell.y, cell.z, cell.mass);
+            if (farBodies == FarBodies::centreOfMass) sources.add(cell.x, cell.y, cell.z, cell.mass);
             c = cell.next;
         } else if (cell.isLeaf) {
             for (std::uint32_t i = cell.first; i < cell.first + cell.count; ++i) sources.add(x_[i], y_[i], z_[i], 1);

@@ -35,7 +35,7 @@ struct Attracted {
 void addPull(const Attraction& attraction, const Bodies& bodies, const Attracted& points);
 
 /// How distant bodies are treated: combined into one at their centre of mass, or ignored.
-enum class FarBodies { together, ignored };
+enum class FarBodies { centreOfMass, ignored };
 
 /// An octree of bodies. A cell is far from a group of points if edge < angle·distance, the distance from the group's
 /// bounding box to the cell's centre of mass; groups are cells of at most 32 bodies.

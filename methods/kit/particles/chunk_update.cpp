@@ -86,7 +86,7 @@ void drive(Chunk& chunk, const PartList& parts, const Step& step) {
     shareOfLife(count, chunk.age, chunk.lifetime, chunk.share);
 
     std::fill_n(chunk.dead, count, std::uint8_t{0});
-    for (const auto& part : parts.lives()) part->judge(chunk, step);
+    for (const auto& part : parts.lives()) part->evaluate(chunk, step);
 
     if (parts.shadings().empty()) {
         parts.colour()->update(chunk, step);

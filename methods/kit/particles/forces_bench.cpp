@@ -130,7 +130,7 @@ double errorOf(const Cloud& c, float angle) {
     AttractionTree cells;
     const Attraction attraction{AttractionLaw::inverseSquare, 1, 0.1f};
     cells.build(c.x, c.y, c.z);
-    cells.pull(attraction, angle, FarBodies::together, tree.ax, tree.ay, tree.az);
+    cells.pull(attraction, angle, FarBodies::centreOfMass, tree.ax, tree.ay, tree.az);
     double difference = 0, size = 0;
     for (std::size_t i = 0; i < n; i += stride) {
         float x = 0, y = 0, z = 0;
@@ -151,11 +151,11 @@ void BM_Tree(benchmark::State& bench) {
     AttractionTree tree;
     for (auto _ : bench) {
         tree.build(c.x, c.y, c.z);
-        tree.pull({AttractionLaw::inverseSquare, 1, 0.1f}, angle, FarBodies::together, c.ax, c.ay, c.az);
+        tree.pull({AttractionLaw::inverseSquare, 1, 0.1f}, angle, FarBodies::centreOfMass, c.ax, c.ay, c.az);
     }
     bench.counters["relative_error"] = errorOf(c, angle);
     bench.counters["pairs_per_body"] =
-        static_cast<double>(tree.pairs(angle, FarBodies::together)) / static_cast<double>(n);
+        static_cast<double>(tree.pairs(angle, FarBodies::centreOfMass)) / static_cast<double>(n);
 }
 void treeArguments(benchmark::internal::Benchmark* bench) {
     for (const std::int64_t angle : {40, 60, 80, 100, 120}) bench->Args({100'000, 2, angle});

@@ -39,7 +39,7 @@ double printedCurve(std::span<const float> controls, double t) {
     return sum;
 }
 
-double mendedCurve(const Controls& p, double t) {
+double correctedCurve(const Controls& p, double t) {
     return static_cast<double>(maths::bezier(p[0], p[1], p[2], p[3], static_cast<float>(t)));
 }
 
@@ -49,7 +49,7 @@ double printedAcceleration(double mass, double force) {
 }
 
 /// a = ΣF/m.
-double mendedAcceleration(double mass, double force) {
+double correctedAcceleration(double mass, double force) {
     return force / mass;
 }
 
@@ -154,9 +154,9 @@ std::vector<Finding> measureFormulae(std::uint64_t seed, std::int64_t draws) {
         const auto two = std::span(p).first(2);
         return std::abs(printedCurve(two, 1) - lastOf(two));
     };
-    const auto mendedEnd = [&](std::int64_t i) {
+    const auto correctedEnd = [&](std::int64_t i) {
         const Controls p = controlsOf(seed, i);
-        return std::abs(mendedCurve(p, 1) - lastOf(p));
+        return std::abs(correctedCurve(p, 1) - lastOf(p));
     };
     const auto ofSix = [&](const auto& curve) {
         return [&, curve](std::int64_t i) {
@@ -173,18 +173,18 @@ std::vector<Finding> measureFormulae(std::uint64_t seed, std::int64_t draws) {
         };
     };
     return {meanOf("bezier_end_printed", draws, printedEnd),
-            meanOf("bezier_end_mended", draws, mendedEnd),
+            meanOf("bezier_end_mended", draws, correctedEnd),
             meanOf("bezier_end_printed_2", draws, printedEndOfTwo),
             meanOf("bezier_six_by_sum", draws, ofSix(bernsteinCurve)),
             meanOf("bezier_six_printed", draws, ofSix(printedCurve)),
             meanOf("bezier_equal_printed", draws,
                    [&](std::int64_t i) { return printedCurve(ones, uniform(seed, timeStream, i)); }),
             meanOf("bezier_equal_mended", draws,
-                   [&](std::int64_t i) { return mendedCurve(ones, uniform(seed, timeStream, i)); }),
+                   [&](std::int64_t i) { return correctedCurve(ones, uniform(seed, timeStream, i)); }),
             meanOf("acceleration_2kg_printed", draws, [](std::int64_t) { return printedAcceleration(2, 1); }),
-            meanOf("acceleration_2kg_mended", draws, [](std::int64_t) { return mendedAcceleration(2, 1); }),
+            meanOf("acceleration_2kg_mended", draws, [](std::int64_t) { return correctedAcceleration(2, 1); }),
             meanOf("momentum_2kg_printed", draws, momentum(2, printedAcceleration)),
-            meanOf("momentum_2kg_mended", draws, momentum(2, mendedAcceleration)),
+            meanOf("momentum_2kg_mended", draws, momentum(2, correctedAcceleration)),
             meanOf("momentum_1kg_printed", draws, momentum(1, printedAcceleration))};
 }
 

@@ -42,7 +42,7 @@ struct Bodies3 {
             addPull(attraction, {x, y, z, mass}, {size, &x[i], &y[i], &z[i], &ax[i], &ay[i], &az[i]});
         }
     }
-    void pullTree(float angle, FarBodies farBodies = FarBodies::together, const Attraction& attraction = bySquare) {
+    void pullTree(float angle, FarBodies farBodies = FarBodies::centreOfMass, const Attraction& attraction = bySquare) {
         AttractionTree tree;
         tree.build(x, y, z);
         tree.pull(attraction, angle, farBodies, ax, ay, az);
@@ -78,7 +78,7 @@ Finding ratioOfErrors(std::string quantity, const Finding& above, const Finding&
 void measureCube(std::uint64_t seed, std::size_t count, std::size_t sample, std::vector<Finding>& findings) {
     Bodies3 exact(count, seed), tree(count, seed);
     exact.pullPairs(0, sample, byCube);
-    tree.pullTree(0.6f, FarBodies::together, byCube);
+    tree.pullTree(0.6f, FarBodies::centreOfMass, byCube);
     findings.push_back(errorOf("rms_cube_angle_0.6", exact, tree, sample));
     for (const float angle : {0.1f, 0.3f, 0.6f}) {
         tree.pullTree(angle, FarBodies::ignored, byCube);
@@ -176,9 +176,9 @@ std::vector<Finding> measureErrors(std::uint64_t seed) {
     const auto found = [&](std::string_view quantity) {
         return *std::ranges::find(findings, quantity, &Finding::quantity);
     };
-    const Finding together = found("rms_angle_0.6"), ignored = found("rms_ignored_0.6");
-    findings.push_back(ratioOfErrors("ignored_over_together_0.6", ignored, together));
-    findings.push_back(ratioOfErrors("together_over_together_0.6", together, together));
+    const Finding centreOfMass = found("rms_angle_0.6"), ignored = found("rms_ignored_0.6");
+    findings.push_back(ratioOfErrors("ignored_over_together_0.6", ignored, centreOfMass));
+    findings.push_back(ratioOfErrors("together_over_together_0.6", centreOfMass, centreOfMass));
     measureCube(seed, count, sample, findings);
 
     std::vector<double> counts, pairs;
@@ -187,7 +187,7 @@ std::vector<Finding> measureErrors(std::uint64_t seed) {
         AttractionTree cells;
         cells.build(bodies.x, bodies.y, bodies.z);
         counts.push_back(static_cast<double>(n));
-        pairs.push_back(static_cast<double>(cells.pairs(onePercentAngle, FarBodies::together)));
+        pairs.push_back(static_cast<double>(cells.pairs(onePercentAngle, FarBodies::centreOfMass)));
     }
     findings.push_back(exponentOf("tree_work_exponent", counts, pairs));
     return findings;

@@ -123,7 +123,7 @@ Pull byPairs(const Cloud& cloud, const Attraction& attraction) {
     return pull;
 }
 
-Pull byTree(const Cloud& cloud, const Attraction& attraction, float angle, FarBodies far = FarBodies::together) {
+Pull byTree(const Cloud& cloud, const Attraction& attraction, float angle, FarBodies far = FarBodies::centreOfMass) {
     Pull pull(cloud.x.size());
     AttractionTree tree;
     tree.build(cloud.x, cloud.y, cloud.z);
@@ -188,11 +188,11 @@ TEST(AttractionTree, ErrorFallsWithTheAngleAndIgnoringIsWorse) {
 TEST(AttractionTree, TakesBodiesAtOnePlaceAndNone) {
     AttractionTree tree;
     tree.build({}, {}, {});
-    tree.pull({}, 0.5f, FarBodies::together, {}, {}, {});
+    tree.pull({}, 0.5f, FarBodies::centreOfMass, {}, {}, {});
     const std::vector<float> same(100, 3);
     std::vector<float> x(100, 9), y(100, 9), z(100, 9);
     tree.build(same, same, same);
-    tree.pull({}, 0.5f, FarBodies::together, x, y, z);
+    tree.pull({}, 0.5f, FarBodies::centreOfMass, x, y, z);
     for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(x[i], 0);
 }
 
@@ -200,9 +200,9 @@ TEST(AttractionTree, NeedsFewerPairsThanAllFromAThousandBodiesOn) {
     const Cloud cloud(30000, 2);
     AttractionTree tree;
     tree.build(cloud.x, cloud.y, cloud.z);
-    EXPECT_LT(tree.pairs(0.6f, FarBodies::together), 30000LL * 30000 / 10);
-    EXPECT_LT(tree.pairs(0.6f, FarBodies::ignored), tree.pairs(0.6f, FarBodies::together));
-    EXPECT_EQ(tree.pairs(0, FarBodies::together), 30000LL * 30000);
+    EXPECT_LT(tree.pairs(0.6f, FarBodies::centreOfMass), 30000LL * 30000 / 10);
+    EXPECT_LT(tree.pairs(0.6f, FarBodies::ignored), tree.pairs(0.6f, FarBodies::centreOfMass));
+    EXPECT_EQ(tree.pairs(0, FarBodies::centreOfMass), 30000LL * 30000);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ class LifePart : public Part {
     /// Called once per step before all chunks.
     virtual void begin(const Step&) {}
     /// Sets `chunk.dead` to 1 for particles that must die; leaves the others unchanged.
-    virtual void judge(Chunk& chunk, const Step& step) const = 0;
+    virtual void evaluate(Chunk& chunk, const Step& step) const = 0;
 
     /// A surface at which particles die; null: none.
     [[nodiscard]] virtual const Surface* surface() const { return nullptr; }

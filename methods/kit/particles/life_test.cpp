@@ -112,15 +112,15 @@ TEST(OutOfSight, KillsAllWhoLeaveThePictureAndNobodyWithinIt) {
                       "velocity = { part = \"random\", speed = 6, variation = 0.3 }\nlife = [ " +
                           immortal + more + " ]\n");
     };
-    auto judged = test::systemFrom(toml(", { part = \"out_of_sight\", margin_metres = 0 }"));
+    auto evaluated = test::systemFrom(toml(", { part = \"out_of_sight\", margin_metres = 0 }"));
     auto all = test::systemFrom(toml(""));
     for (int step = 0; step < 200; ++step) {
         std::map<std::uint64_t, glm::vec3> before;
         for (std::size_t i = 0; i < all.store().size(); ++i) before[all.store().serial[i]] = all.store().position(i);
-        const std::set<std::uint64_t> livedBefore(judged.store().serial.begin(), judged.store().serial.end());
-        live(judged, 1, &view);
+        const std::set<std::uint64_t> livedBefore(evaluated.store().serial.begin(), evaluated.store().serial.end());
+        live(evaluated, 1, &view);
         live(all, 1);
-        const std::set<std::uint64_t> lives(judged.store().serial.begin(), judged.store().serial.end());
+        const std::set<std::uint64_t> lives(evaluated.store().serial.begin(), evaluated.store().serial.end());
         for (const std::uint64_t serial : livedBefore) {
             const double far = outside(view, before.at(serial));
             if (lives.contains(serial))
@@ -129,9 +129,9 @@ TEST(OutOfSight, KillsAllWhoLeaveThePictureAndNobodyWithinIt) {
                 EXPECT_GT(far, 0);
         }
     }
-    EXPECT_LT(judged.store().size(), 200u);
+    EXPECT_LT(evaluated.store().size(), 200u);
     EXPECT_EQ(all.store().size(), 800u);
-    EXPECT_THROW(live(judged, 1), InputError);
+    EXPECT_THROW(live(evaluated, 1), InputError);
 }
 
 TEST(OutOfSight, HasALimitOfDistance) {

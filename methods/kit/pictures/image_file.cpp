@@ -94,18 +94,19 @@ void writeImage(const Image& image, const fs::path& file) {
         throw InputError("image '" + file.string() + "' cannot be written: it has no pixels");
 
     // A temporary file next to the target keeps the rename within one file system; the process id makes it unique.
-    fs::path beside = file;
-    beside += ".part" + std::to_string(getpid());
+    fs::path temporary = file;
+    temporary += ".part" + std::to_string(getpid());
     const auto fail = [&](const std::string& reason, int error) {
         std::error_code ignored;
-        fs::remove(beside, ignored);
+        fs::remove(temporary, ignored);
         if (files::isOfMachine(error)) files::failWriting(file, error);
         throw InputError("image '" + file.string() + "' cannot be written: " + reason);
     };
     errno = 0;
-    if (const std::string reason = tryToWrite(image, beside, extension == ".png"); !reason.empty()) fail(reason, errno);
+    if (const std::string reason = tryToWrite(image, temporary, extension == ".png"); !reason.empty())
+        fail(reason, errno);
     std::error_code error;
-    fs::rename(beside, file, error);
+    fs::rename(temporary, file, error);
     if (error) fail(error.message(), error.value());
 }
 

@@ -34,7 +34,7 @@ glm::ivec3 firstCell(const GridPlace& lead, const GridPlace& grid) {
     return glm::ivec3(glm::round(shift(lead, grid)));
 }
 
-GridPlace together(const GridPlace& a, const GridPlace& b) {
+GridPlace enclosing(const GridPlace& a, const GridPlace& b) {
     const glm::ivec3 first = firstCell(a, b), low = glm::min(glm::ivec3(0), first),
                      high = glm::max(a.cells, first + b.cells);
     GridPlace both = a;

@@ -40,7 +40,7 @@ struct GridPlace {
 /// The first cell of `grid` on the lattice of `lead`. Both must be on the same lattice.
 [[nodiscard]] DUSTBENCH_API glm::ivec3 firstCell(const GridPlace& lead, const GridPlace& grid);
 /// The box of cells that covers both, on the same lattice.
-[[nodiscard]] DUSTBENCH_API GridPlace together(const GridPlace& a, const GridPlace& b);
+[[nodiscard]] DUSTBENCH_API GridPlace enclosing(const GridPlace& a, const GridPlace& b);
 
 /// Throws InputError unless `grid`, of the file `name`, continues a series after `before`: later in time, and on the
 /// lattice of `first`, whose file is `firstName`; without `anyCells` also with exactly the same cells.

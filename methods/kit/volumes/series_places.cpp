@@ -42,7 +42,7 @@ SeriesPlaces::SeriesPlaces(std::vector<GridPlace> places, const std::vector<std:
         const std::size_t before = i > 0 ? i - 1 : 0;
         requireGoesOn(places_[i], names[i], i > 0 ? &places_[before] : nullptr, names[before], places_[0], names[0],
                       /*anyCells=*/true);
-        if (cellsOf(together(places_[before], places_[i])) > static_cast<double>(maximumCells))
+        if (cellsOf(enclosing(places_[before], places_[i])) > static_cast<double>(maximumCells))
             throw InputError(fmt::format("{}: together with {} it has more than {} cells (limit of volumes)",
                                          names[i].string(), names[before].filename().string(), maximumCells));
     }

@@ -22,7 +22,7 @@ namespace {
 
 /// Returns an error number, or 0.
 int spawn(std::string first, std::string second, int output, pid_t& process) {
-    const std::string program = files::besideKit(vdbReaderName);
+    const std::string program = files::inKitFolder(vdbReaderName);
     std::string self = vdbReaderName;
     std::array<char*, 4> argv{self.data(), first.data(), second.data(), nullptr};
     posix_spawn_file_actions_t actions;

@@ -29,7 +29,7 @@ void pad(VectorGrid& grid, const GridPlace& place) {
 void bringTogether(std::vector<VectorGrid>& grids, std::span<const std::filesystem::path> names) {
     GridPlace place = grids.front();
     for (std::size_t i = 0; i < grids.size(); ++i) {
-        place = together(place, grids[i]);
+        place = enclosing(place, grids[i]);
         if (cellsOf(place) * static_cast<double>(grids.size() * sizeof(glm::vec3)) > static_cast<double>(maximumBytes))
             throw InputError(fmt::format("{}: the box of the series up to this file takes over {} GiB",
                                          names[i].string(), maximumBytes >> 30));

@@ -111,7 +111,7 @@ const VolumeGrid& VolumeSeries::at(double seconds, bool wantsVelocity, VolumeGri
     const auto [before, next, share] = series_.at(seconds);
     const VolumeGrid &from = moments_[before], &after = moments_[next];
     if (share == 0) return from;
-    static_cast<GridPlace&>(between) = together(from, after);
+    static_cast<GridPlace&>(between) = enclosing(from, after);
     between.timeSeconds = *moments_.front().timeSeconds + seconds;
     blend(from, after, &VolumeGrid::density, share, between);
     blend(from, after, &VolumeGrid::temperature, share, between);

@@ -39,8 +39,8 @@ namespace dustbench::relief {
 /// The texel nearest to a hit; one past the last if the hit is outside the map.
 [[nodiscard]] inline std::size_t nearestTexel(const Impact& impact, const DepthMap& map) {
     const int column = nearestTo(impact.u), row = nearestTo(impact.v);
-    const bool beside = column < 0 || row < 0 || column >= map.columns() || row >= map.rows();
-    return beside ? map.size() : map.texel(column, row);
+    const bool isOutside = column < 0 || row < 0 || column >= map.columns() || row >= map.rows();
+    return isOutside ? map.size() : map.texel(column, row);
 }
 
 /// The reaches of several hits, so that a gathering texel can compare many at once.

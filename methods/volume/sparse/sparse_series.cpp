@@ -80,8 +80,8 @@ void SparseSeries::readDensities(std::vector<volumes::GridPlace>& places) {
 void SparseSeries::readTemperatures(const std::vector<volumes::GridPlace>& places) {
     for (std::size_t i = 0; i < moments_.size(); ++i) {
         BrickRows rows;
-        for (std::size_t beside = i > 0 ? i - 1 : 0; beside < std::min(i + 2, moments_.size()); ++beside)
-            forEachSeen(moments_[beside].density, [&](const glm::ivec3& brick) { rows.add(brick); });
+        for (std::size_t adjacent = i > 0 ? i - 1 : 0; adjacent < std::min(i + 2, moments_.size()); ++adjacent)
+            forEachSeen(moments_[adjacent].density, [&](const glm::ivec3& brick) { rows.add(brick); });
         rows.close();
         BrickReader reader(names_[i], setup_, &places.front());
         reader.readTemperatures(rows);
@@ -129,7 +129,7 @@ SparseSeries::Sources SparseSeries::join(const NanoTree& before, const NanoTree&
 
 void SparseSeries::prepare(std::size_t before, std::size_t after) {
     if (joined_ == std::pair(before, after)) return;
-    const volumes::GridPlace both = volumes::together(series_->places()[before], series_->places()[after]);
+    const volumes::GridPlace both = volumes::enclosing(series_->places()[before], series_->places()[after]);
     place(between_, both, volumes::firstCell(series_->places().front(), both) + leadCell);
     densities_ = join(moments_[before].density, moments_[after].density, {}, between_.density);
     if (!setup_.fire.empty()) {

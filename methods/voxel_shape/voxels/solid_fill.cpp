@@ -64,10 +64,10 @@ class OutsideSweeps {
         const std::uint8_t* const marked = marked_ + row * nx;
         std::uint8_t* const own = reached_.data() + row * nx;
         const auto reachFrom = [&](bool isInside, std::ptrdiff_t rows) {
-            const std::uint8_t* const beside =
+            const std::uint8_t* const neighbour =
                 isInside ? own + rows * static_cast<std::ptrdiff_t>(nx) : outside_.data();
 #pragma GCC ivdep
-            for (std::size_t i = 0; i < nx; ++i) own[i] |= static_cast<std::uint8_t>(beside[i] & (marked[i] ^ 1));
+            for (std::size_t i = 0; i < nx; ++i) own[i] |= static_cast<std::uint8_t>(neighbour[i] & (marked[i] ^ 1));
         };
         reachFrom(y > 0, -1);
         reachFrom(y + 1 < counts_.y, 1);

@@ -15,7 +15,7 @@ namespace {
 
 enum class Method { pairs, tree };
 constexpr Choices<Method> methods{{"pairs", Method::pairs}, {"tree", Method::tree}};
-constexpr Choices<FarBodies> farWords{{"together", FarBodies::together}, {"ignored", FarBodies::ignored}};
+constexpr Choices<FarBodies> farWords{{"together", FarBodies::centreOfMass}, {"ignored", FarBodies::ignored}};
 
 void add(std::size_t count, const float* __restrict pull, float* __restrict acceleration) {
     for (std::size_t i = 0; i < count; ++i) acceleration[i] += pull[i];
@@ -93,7 +93,7 @@ PartInfo describe() {
               "ε: limits the attraction at small distances, since f is infinite at d = 0")
         .choice("method", Method::tree, methods, "pairs: every pair, exact; tree: far cells as one")
         .real("opening_angle", 0.6, 0, 10, "", "a cell is far if edge < angle·distance; 0: none")
-        .choice("far", FarBodies::together, farWords, "far cells pull from their centre of mass, or not at all");
+        .choice("far", FarBodies::centreOfMass, farWords, "far cells pull from their centre of mass, or not at all");
     info.create = [](const ParameterValues& values) { return std::make_unique<Interaction>(values); };
     return info;
 }

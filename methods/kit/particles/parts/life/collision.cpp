@@ -41,7 +41,7 @@ class Collision final : public LifePart {
                    static_cast<float>(values.real("delay_seconds"))} {}
 
     void begin(const Step& step) override { surface_->begin(step); }
-    void judge(Chunk& chunk, const Step& step) const override;
+    void evaluate(Chunk& chunk, const Step& step) const override;
     [[nodiscard]] const Surface* surface() const override { return printed_ ? nullptr : surface_.get(); }
     [[nodiscard]] Contact contact() const override { return contact_; }
     [[nodiscard]] std::optional<Mark> mark() const override { return markOfSurface(values()); }
@@ -52,7 +52,7 @@ class Collision final : public LifePart {
     Contact contact_;
 };
 
-void Collision::judge(Chunk& chunk, const Step& step) const {
+void Collision::evaluate(Chunk& chunk, const Step& step) const {
     if (!printed_) return;
     alignas(64) float x[chunkSize], y[chunkSize], z[chunkSize], share[chunkSize], seconds[chunkSize];
     const float dt = static_cast<float>(step.seconds);

@@ -24,7 +24,7 @@ class Lifetime final : public LifePart {
     /// Throws InputError if a lifetime could be 0.
     explicit Lifetime(const ParameterValues& values);
 
-    void judge(Chunk& chunk, const Step& step) const override;
+    void evaluate(Chunk& chunk, const Step& step) const override;
     [[nodiscard]] std::optional<double> meanLifetimeSeconds() const override { return averageSeconds_; }
     void giveLifetimes(Newborns& newborns, const Step& step) const override;
 
@@ -47,7 +47,7 @@ Lifetime::Lifetime(const ParameterValues& values)
                          ", allowed: less than average_seconds, " + values.canonical().find("average_seconds")->second);
 }
 
-void Lifetime::judge(Chunk& chunk, const Step&) const {
+void Lifetime::evaluate(Chunk& chunk, const Step&) const {
     raiseWhereOld(chunk.count, chunk.age, chunk.lifetime, chunk.dead);
 }
 

@@ -42,7 +42,7 @@ class OutOfSight final : public LifePart {
 
     /// Throws InputError without a camera.
     void begin(const Step& step) override;
-    void judge(Chunk& chunk, const Step& step) const override;
+    void evaluate(Chunk& chunk, const Step& step) const override;
 
  private:
     float margin_, farthest_;
@@ -57,7 +57,7 @@ void OutOfSight::begin(const Step& step) {
     sight_ = sightOf(*step.view);
 }
 
-void OutOfSight::judge(Chunk& chunk, const Step&) const {
+void OutOfSight::evaluate(Chunk& chunk, const Step&) const {
     for (std::size_t i = 0; i < chunk.count; ++i) {
         const glm::vec3 to = glm::vec3(chunk.x[i], chunk.y[i], chunk.z[i]) - sight_.eye;
         const float along = glm::dot(to, sight_.ahead), room = margin_ + 1.5f * chunk.radius[i];
