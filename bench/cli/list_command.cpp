@@ -100,7 +100,8 @@ Command listCommand() {
         "list", "List methods, scenes, drives, suites, experiments, metrics and parts of particle systems",
         "`dustbench list methods` shows every parameter that -P sets, with its default and allowed values. `dustbench "
         "list parts` documents the files of data/particles, which define particle systems: `size/linear` is a table "
-        "[size] with part = \"linear\" and any of the keys shown. There may be several of life, shading, force and event: "
+        "[size] with part = \"linear\" and any of the keys shown. There may be several of life, shading, force and "
+        "event: "
         "[[force]].",
         [options](Arguments& arguments) {
             arguments.text("what", fmt::format("{}", fmt::join(bench::catalogueKinds(), "|")), "default: all",
