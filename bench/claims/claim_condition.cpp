@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <string>
 #include <utility>
@@ -172,7 +174,7 @@ std::string intervalAlong(const std::vector<ClaimCell>& cells, const std::string
         if (!value) return "";
         verdicts[*value].push_back(cell.verdict);
     }
-    for (const auto& [value, list] : verdicts) axis.push_back(value);
+    std::ranges::copy(std::views::keys(verdicts), std::back_inserter(axis));
     const std::string unit = column == voxelEdgeColumn ? " m" : "";
     const auto [all, some] = trueValues(verdicts);
     std::string text = fmt::format("true for {} {}{}", nameOf(column), rangesText(all, axis), unit);

@@ -113,7 +113,7 @@ TEST_F(CompareCommand, RefusesInOneLine) {
     EXPECT_THAT(refused("billboard"), HasSubstr("2 or more"));
     EXPECT_THAT(refused("billboard billbord"), HasSubstr("did you mean"));
     EXPECT_THAT(refused("billboard a/b"), HasSubstr("billboard' together with a results folder"));
-    EXPECT_THAT(refused("billboard billboard:soft=true --moments 0:4"), HasSubstr("got 4 moments"));
+    EXPECT_THAT(refused("billboard billboard:soft=true --moments 0:4"), HasSubstr("got 4 frames (0:4:1)"));
     EXPECT_THAT(refused("billboard billboard:soft=true --moments 0:200:2"), HasSubstr("beyond the run's end"));
     EXPECT_THAT(refused("billboard billboard:soft=true -P particles=1,2"), HasSubstr("got 2 values"));
     EXPECT_THAT(refused("billboard billboard:soft=true --drive nowhere"), HasSubstr("nowhere"));

@@ -153,7 +153,7 @@ TEST_F(MeasureMachine, RefusesABundleThatIsNotItsOwn) {
     std::ofstream(folder_ / "out.tar") << "mine";
     const Called called = call("measure-machine --quick --out " + out());
     EXPECT_EQ(called.code, 3);
-    EXPECT_THAT(called.err, HasSubstr("out.tar' already exists"));
+    EXPECT_THAT(called.err, HasSubstr("out.tar': already exists"));
     EXPECT_EQ(contentOf(folder_ / "out.tar"), "mine");
     EXPECT_FALSE(fs::exists(folder_ / "out"));
 }

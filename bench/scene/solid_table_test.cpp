@@ -123,7 +123,7 @@ TEST(SolidTable, SaysInOneLineWhatIsWrong) {
     EXPECT_THAT(one.refusal("keys_repeat = true\n" + key + next + "position = [1, 0, 0]\n"),
                 HasSubstr("the last key has a different position from the first"));
     EXPECT_THAT(one.refusal("keys_repeat = true\n" + key + next + "rotation_degrees = [0, 350, 0]\n"),
-                HasSubstr("another rotation"));
+                HasSubstr("a different rotation from the first"));
     EXPECT_NO_THROW((void)one.with("keys_repeat = true\n" + key + next + "rotation_degrees = [0, 720, 0]\n"));
     EXPECT_THAT(one.refusal(key + "weights = [1]\n"), HasSubstr("got 1 numbers, expected 0"));
     EXPECT_THAT(one.refusal("targets = [\"taller.obj\"]\n" + key + "weights = [1, 1]\n"),

@@ -154,7 +154,7 @@ TEST_F(ExactInViewer, IsDrawnOnDemandAndEveryFrameIfAskedFor) {
     state.b.reset();
     viewer.apply(state);
     viewer.press(Key::e, false);
-    EXPECT_THAT(viewer.message(), HasSubstr("half B"));
+    EXPECT_THAT(viewer.message(), HasSubstr("as B"));
 }
 
 TEST_F(ExactInViewer, IsShownAsItsPictureIs) {

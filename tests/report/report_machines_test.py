@@ -200,9 +200,9 @@ class ReportOfSeveralMachines(MachinesCase):
         def between(start, end):
             return page.partition(start)[2].partition(end)[0]
 
-        scripts = ("chart_style chart_data chart_parts published_marks cost_chart stage_chart quality_chart charts words".split(),
+        scripts = ("chart_style chart_data chart_parts published_marks cost_chart stage_chart quality_chart map_chart charts words".split(),
                    "elements markdown pictures claims overview page_state page_look chart_card head page".split())
-        charts = ",".join(f'"{name}":' + text("page", "charts", f"{name}.json") for name in ("bars", "cost", "frames", "quality", "stages"))
+        charts = ",".join(f'"{name}":' + text("page", "charts", f"{name}.json") for name in ("bars", "cost", "frames", "map", "quality", "stages"))
         data = between('id="report-data">', "</script>")
         columns = between('id="report-columns">', "</script>")
         named = json.loads(columns)
