@@ -377,7 +377,7 @@ TEST(Suite, SaysWhereMetricsAreAskedForWrongly) {
     EXPECT_THAT(messageOf("metric_frames = \"0:40:8\""), AllOf(HasSubstr("s.toml:1"), HasSubstr("requires 'metrics")));
     EXPECT_THAT(messageOf("frames = 20\nmetrics = true\nmetric_frames = \"0:40:8\""),
                 HasSubstr("beyond the run's end"));
-    EXPECT_THAT(messageOf("metrics = true\nmetric_frames = \"0:4\""), HasSubstr("got 4 moments"));
+    EXPECT_THAT(messageOf("metrics = true\nmetric_frames = \"0:4\""), HasSubstr("got 4 frames (0:4:1)"));
     EXPECT_THAT(messageOf("metrics = true\nmethods = [\"billboard\"]\n[metric_reference.bilboard]\nsoft = true"),
                 HasSubstr("bilboard"));
     EXPECT_THAT(messageOf("metrics = true\nmethods = [\"billboard\"]\n[metric_reference.billboard]\nsofd = true"),

@@ -30,7 +30,7 @@ TEST(MetricPlan, TakesTheMomentsThatAreNamed) {
     EXPECT_THAT(inputError([] {
                     requireMomentsWithinRun({FrameRange{0, 3, 1}, {}}, 100);
                 }),
-                HasSubstr("got 4 moments"));
+                HasSubstr("got 4 frames (0:4:1)"));
 }
 
 TEST(MetricPlan, PoppingIsSeenOverTheLastFramesOrNotAtAll) {
