@@ -29,9 +29,9 @@ suites = ["tiny-loads"]
 summary = ""
 methods = ["billboard"]
 sizes = ["96x72"]
-frames = 3
+frames = 120
 warmup = 1
-images = 2
+images = 80
 [parameters]
 preroll = 6
 particles = [100, 300]
