@@ -22,7 +22,7 @@ std::string faultsText(const char* half, const LayerFaults& faults) {
     return text;
 }
 
-std::string labelOf(Shown shown, std::string_view word) {
+std::string labelOf(Shown shown) {
     if (shown == Shown::a || shown == Shown::b) return shown == Shown::a ? "A only" : "B only";
     if (shown == Shown::sideBySide) return "Side by side";
     if (shown == Shown::flip) return "FLIP";
@@ -129,7 +129,7 @@ void PicturePanel::showHalves(Viewer& viewer, WidgetMap& widgets) {
     int shownSoFar = 0;
     for (const auto& [word, shown] : shownChoices.all()) {
         if (shownSoFar++ % inRow != 0) ImGui::SameLine();
-        const std::string label = labelOf(shown, word);
+        const std::string label = labelOf(shown);
         if (ImGui::RadioButton(label.c_str(), viewer.split.shown == shown)) viewer.split.shown = shown;
         widgets.note(label);
     }

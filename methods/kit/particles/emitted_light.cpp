@@ -31,7 +31,7 @@ class Discriminant {
     Discriminant(const Puffs& puffs, GlowBy by) : puffs_(puffs), by_(by) {
         if (by == GlowBy::luminosity)
             for (std::size_t i = 0; i < puffs.size(); ++i) maximum_ = std::max(maximum_, glowLuminosity(puffs, i));
-        if (by != GlowBy::place || puffs.size() == 0) return;
+        if (by != GlowBy::place || puffs.empty()) return;
         for (const std::span<const float> column : {puffs.x, puffs.y, puffs.z}) {
             const auto [low, high] = std::ranges::minmax_element(column);
             if (!along_.empty() && *high - *low <= static_cast<float>(maximum_ - minimum_)) continue;

@@ -29,6 +29,7 @@ class Play {
         const scene::SceneState state;
         for (int i = 0; i < steps; ++i) {
             std::vector<ScriptedSystem> scripted;
+            scripted.reserve(systems_.size());
             for (auto& [name, system] : systems_) scripted.push_back({name, *system});
             applyEvents(scripted);
             for (auto& [name, system] : systems_) system->update({scene, state, seconds});
@@ -253,6 +254,7 @@ TEST(Events, NameSystemsAndChangesThatExist) {
                 flying(1, 0, forEver + "event = [ { part = \"death\", " + event + " } ]\n") + started("steam"),
                 "x.toml");
             std::vector<NamedPartsView> views;
+            views.reserve(systems.size());
             for (const NamedParts& each : systems) views.push_back({each.name, *each.parts});
             requireScript(views);
         } catch (const InputError& error) {
