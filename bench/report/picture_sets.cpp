@@ -80,7 +80,7 @@ class Collector {
             const std::string start = fmt::format("{}f{:06}", relative, frame);
             if (has.reference) {
                 // The ground truth is common to all methods; a finer setting is specific to its method.
-                const std::string name = isExact ? "exact" : "reference of " + label;
+                const std::string name = isExact ? "reference" : "reference of " + label;
                 if (std::ranges::find(set.pictures, name, &ReportPicture::label) == set.pictures.end())
                     set.pictures.push_back({name, isExact ? "" : cell.method, false, start + "_reference.png", {}});
             }

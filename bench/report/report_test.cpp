@@ -210,7 +210,7 @@ TEST(ReportPictures, AreInThePageOrBesideItAsTheBudgetAllows) {
         const PictureSet& set = data.pictureSets[0];
         EXPECT_EQ(set.frame, 30);
         ASSERT_EQ(set.pictures.size(), 3u);
-        EXPECT_EQ(set.pictures[0].label, "exact");
+        EXPECT_EQ(set.pictures[0].label, "reference");
         EXPECT_EQ(set.pictures[1].label, "haze");
         EXPECT_TRUE(set.pictures[2].difference);
         EXPECT_EQ(data.linkedPictures, budget > 0 ? 0u : 3u);

@@ -113,7 +113,7 @@ std::optional<SheetCell> differenceOf(const ShownPicture& picture, const SheetSc
 ContactSheet momentsAsRows(std::span<const SheetRun> runs, const std::vector<Moment>& moments) {
     ContactSheet sheet;
     sheet.scale = {0, scaleOf(moments), "FLIP"};
-    sheet.columns.emplace_back("exact");
+    sheet.columns.emplace_back("reference");
     for (const SheetRun& run : runs) sheet.columns.push_back(run.label);
     for (const SheetRun& run : runs)
         if (run.evaluated) sheet.columns.push_back("difference of " + run.label);
@@ -132,7 +132,7 @@ ContactSheet momentsAsRows(std::span<const SheetRun> runs, const std::vector<Mom
 ContactSheet methodsAsRows(std::span<const SheetRun> runs, const std::vector<Moment>& moments) {
     ContactSheet sheet;
     sheet.scale = {0, scaleOf(moments), "FLIP"};
-    sheet.rows.emplace_back("exact");
+    sheet.rows.emplace_back("reference");
     for (const SheetRun& run : runs) sheet.rows.push_back(run.label);
     sheet.cells.resize(sheet.rows.size());
     for (const Moment& moment : moments) {

@@ -37,7 +37,7 @@ std::vector<std::string_view> split(std::string_view text, std::size_t spaces) {
     return parts;
 }
 
-/// As many letters as fit, but at least one.
+/// As many letters as fit, but at least one; of an identifier or a path, whole parts if the first fits.
 std::string_view fittingPart(std::string_view word, double widthPixels, const Lettering& lettering) {
     std::size_t bytes = lengthOfFirst(word);
     while (bytes < word.size()) {
@@ -45,7 +45,8 @@ std::string_view fittingPart(std::string_view word, double widthPixels, const Le
         if (textWidth(word.substr(0, next), lettering) > widthPixels) break;
         bytes = next;
     }
-    return word.substr(0, bytes);
+    const std::size_t joint = bytes < word.size() ? word.substr(0, bytes).find_last_of("_/") : std::string_view::npos;
+    return word.substr(0, joint == std::string_view::npos || joint == 0 ? bytes : joint + 1);
 }
 
 class Breaker {

@@ -4,7 +4,7 @@ const pictureViewer = (() => {
     const { digits } = chartStyle;
     const nameOf = picture => (picture.difference ? `difference: ${words.labelText(picture.label)}` : words.labelText(picture.label));
     const secondsPerTurn = 0.7;
-    const isReference = picture => picture.label === 'exact' || picture.label.startsWith('reference of ');
+    const isReference = picture => picture.label.startsWith('reference');
     const isEmbedded = picture => picture.source.startsWith('data:');
 
     /// `PSNR 44.4 dB, SSIM 0.998, FLIP 0.00332`
@@ -23,7 +23,7 @@ const pictureViewer = (() => {
     /// `isMain`: whether the viewer may open on an experiment.
     const build = (report, titleOf, isMain = () => true) => {
         // Worlds with ground truth first: they are the most informative.
-        const isJudged = set => set.pictures.some(picture => picture.label === 'exact');
+        const isJudged = set => set.pictures.some(picture => picture.label === 'reference');
         const sets = [...report.data.pictures].sort((a, b) => isJudged(b) - isJudged(a));
         const worlds = [...new Map(sets.map(set => [`${set.experiment}\n${set.world}`, set])).values()]
             .map(set => ({ set, text: [titleOf(set.experiment), words.readable(set.world)].filter(Boolean).join(' · ') }))
