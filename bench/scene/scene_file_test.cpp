@@ -180,7 +180,8 @@ TEST(SceneFile, SaysFileLineAndWhatWasExpectedOfBadInput) {
     EXPECT_THAT(message(head + "[sun]\nelevation_degrees = 100\nazimuth_degrees = 0\n"), HasSubstr("0..90"));
     EXPECT_THAT(message(head + "[vehicle]\nmass_kilograms = nan\n"), HasSubstr(":3: "));
     EXPECT_THAT(message(head + "[camera.front]\nx = 1\n"), HasSubstr("'front'"));
-    EXPECT_THAT(message(head + "[camera.fixed]\neye = [1, 1, 1]\ntarget = [1, 1, 1]\n"), HasSubstr("a point other than 'eye'"));
+    EXPECT_THAT(message(head + "[camera.fixed]\neye = [1, 1, 1]\ntarget = [1, 1, 1]\n"),
+                HasSubstr("a point other than 'eye'"));
     EXPECT_THAT(message(head + "[[solid]]\nname = \"a\"\nmesh = \"none.obj\"\n"),
                 HasSubstr("'none.obj': no such file, tried "));
     EXPECT_THAT(message(head + "[[solid]]\nname = \"a\"\nmesh = \"bad.obj\"\n"), HasSubstr("bad.obj"));
