@@ -102,7 +102,7 @@ TEST(ReferenceStore, RendersWhereAFileIsDamagedOrTheFolderCannotBeMade) {
     EXPECT_EQ(inputs.from(store).pixels, expected);
     EXPECT_EQ(store.found(), 0);
     EXPECT_EQ(inputs.from(store).pixels, expected);
-    EXPECT_EQ(store.found(), 1) << "it was stored anew";
+    EXPECT_EQ(store.found(), 1) << "it is stored again";
     ReferenceStore nowhere("/proc/none");
     EXPECT_EQ(inputs.from(nowhere).pixels, expected);
 }

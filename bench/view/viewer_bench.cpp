@@ -1,4 +1,4 @@
-// Frames of the window without its panels: billboards beside power moments, as `dustbench view` shows them.
+// Frames of the window without its panels: billboards next to power moments, as `dustbench view` shows them.
 //
 // Target: 15 frames per second at 320×240 with 3,000 particles on two cores without a GPU.
 #include <benchmark/benchmark.h>
