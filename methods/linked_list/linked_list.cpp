@@ -110,7 +110,7 @@ void LinkedList::requireSorted() {
         throw InputError(
             "linked_list: got lists in " + std::to_string(count[2]) +
             " pixels that are too long for this driver, which ends the loops of a shader after a number of "
-            "iterations; expected at most some thousand fragments in a pixel");
+            "iterations; expected at most a few thousand fragments per pixel");
 }
 
 void LinkedList::report(const Frame&, Facts& facts) const {

@@ -66,7 +66,7 @@ struct Metric {
     int round = 6;     ///< of the extensions of summary.csv (bench/results/summary.cpp)
 };
 
-/// A method's pictures of one moment and their references. What is not available is empty.
+/// A method's pictures of one moment and their references; empty if not available.
 struct ComparedMoment {
     Picture picture, reference;              ///< over the scene; the reference is that of the particles
     Plane alpha, referenceAlpha;             ///< of the dust alone
