@@ -96,7 +96,7 @@ TEST_F(CompareCommand, TurnsTheSheetOfManyMethods) {
     EXPECT_GT(sheet.height, 6 * 300);
     std::ifstream file(fs::path(out()) / "contact_sheet.svg");
     const std::string svg{std::istreambuf_iterator<char>(file), {}};
-    for (const char* heading : {">exact<", ">billboard<", ">null_method<", ">difference<"})
+    for (const char* heading : {">reference<", ">billboard<", ">null_method<", ">difference<"})
         EXPECT_THAT(svg, HasSubstr(heading));
     EXPECT_THAT(svg, Not(HasSubstr("difference of")));
 }
