@@ -68,6 +68,7 @@ struct Stepped {
     FrameRunner runner;
 };
 
+/// Without those that read their pixels' counters: linked_list, and on a software renderer all with a LoopLimit.
 constexpr const char* takers[]{"billboard", "weighted_oit", "null_method"};
 
 TEST_F(GpuDustRun, ReadsNothingBackInAFrame) {
@@ -95,7 +96,10 @@ TEST_F(GpuDustRun, DrawsThePictureOfDustOnTheCpu) {
         {"billboard", {{"soft", "on"}, {"facing", "viewplane"}}},
         {"billboard", {{"sort", "none"}}},
         {"weighted_oit", {}},
-        {"weighted_oit", {{"mode", "paper"}}}};
+        {"weighted_oit", {{"mode", "paper"}}},
+        {"multi_layer", {}},
+        {"adaptive_transparency", {}},
+        {"linked_list", {{"fragments_per_pixel", "256"}}}};
     for (const char* scene : {"plain", "two_soils"})
         for (const auto& [method, parameters] : settings) {
             if (!hasMethod(method)) continue;

@@ -19,8 +19,8 @@
 #include <optional>
 
 #include "methods/contract/method.h"
-#include "methods/kit/gpu/buffer.h"
-#include "methods/kit/gpu/program.h"
+#include "methods/kit/draw/puff_quads.h"
+#include "methods/kit/draw/tile_pass.h"
 
 namespace dustbench::adaptive_transparency {
 
@@ -40,17 +40,15 @@ class AdaptiveTransparency final : public Method {
     void draw(const Frame& frame, gpu::Layer& layer) override;
     void volume(const Frame& frame, VolumeVisitor& visitor) const override { visitor.puffs(frame.dust); }
     void report(const Frame& frame, Facts& facts) const override;
-    [[nodiscard]] MemoryReport memory() const override { return {{"puffs", 0, puffs_.bytes()}}; }
-    [[nodiscard]] std::int64_t primitives() const override { return static_cast<std::int64_t>(count_); }
+    [[nodiscard]] MemoryReport memory() const override;
+    [[nodiscard]] std::int64_t primitives() const override;
 
  private:
     Puff puff_;
     double reach_;
     int nodes_;
-    gpu::Device* device_ = nullptr;
-    std::optional<gpu::Program> program_;
-    gpu::Buffer puffs_;
-    std::size_t count_ = 0;
+    std::optional<draw::PuffQuads> quads_;  ///< the puffs on the GPU
+    std::optional<draw::TilePass> pass_;
 };
 
 /// Called by the registry.

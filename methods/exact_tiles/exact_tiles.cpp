@@ -33,6 +33,7 @@ void upload(gpu::Device& device, std::string_view label, std::span<const T> valu
 
 void ExactTiles::prepare(const scene::Scene&, const RunSetup&, gpu::Device& device) {
     device_ = &device;
+    loops_.emplace(device);
 }
 
 void ExactTiles::update(const Frame& frame) {
@@ -65,11 +66,12 @@ gpu::Program& ExactTiles::program(bool oneColour) {
     const int rows = settings_.rowsAtOnce > 0 ? settings_.rowsAtOnce : device_->isSoftware() ? tilePixels : 1;
     const std::map<std::string, std::string> definitions{{"ROWS", std::to_string(rows)}};
     if (!made)
-        made.emplace(*device_, oneColour ? "exact tiles: sum" : "exact tiles: march",
-                     std::initializer_list<gpu::ShaderFile>{
-                         draw_shaders::error_function_glsl, exact_tiles_shaders::tile_puffs_glsl,
-                         oneColour ? exact_tiles_shaders::tile_sum_comp : exact_tiles_shaders::tile_march_comp},
-                     definitions);
+        made.emplace(
+            *device_, oneColour ? "exact tiles: sum" : "exact tiles: march",
+            std::initializer_list<gpu::ShaderFile>{
+                draw_shaders::error_function_glsl, draw_shaders::loop_limit_glsl, exact_tiles_shaders::tile_puffs_glsl,
+                oneColour ? exact_tiles_shaders::tile_sum_comp : exact_tiles_shaders::tile_march_comp},
+            definitions);
     return *made;
 }
 
@@ -89,7 +91,9 @@ void ExactTiles::draw(const Frame& frame, gpu::Layer& layer) {
     entries_.bindStorage(2);
     layer.sceneDepth().bind(0);
     layer.colour().bindImage(0, false, true);
+    loops_->bind(program);
     program.dispatch(tiles_.columns(), tiles_.rows(), 1);
+    loops_->requireWholeLoops("exact_tiles");
 }
 
 MemoryReport ExactTiles::memory() const {

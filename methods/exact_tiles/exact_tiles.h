@@ -13,6 +13,7 @@
 
 #include "methods/contract/method.h"
 #include "methods/exact_tiles/puff_tiles.h"
+#include "methods/kit/draw/loop_limit.h"
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/program.h"
 
@@ -44,6 +45,7 @@ class ExactTiles final : public Method {
     PuffTiles tiles_;
     gpu::Device* device_ = nullptr;
     gpu::Buffer puffs_, lists_, entries_;
+    std::optional<draw::LoopLimit> loops_;
     std::optional<gpu::Program> sum_, march_;  ///< compiled on first use
     std::optional<scene::View> listedFor_;     ///< the view that the lists were made for
 };

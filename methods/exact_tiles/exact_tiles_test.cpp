@@ -1,10 +1,12 @@
 #include "methods/exact_tiles/exact_tiles.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
+#include "methods/contract/errors.h"
 #include "methods/kit/maths/transmittance.h"
 #include "methods/kit/testing/test_moment.h"
 
@@ -269,6 +271,27 @@ TEST(ExactTiles, FollowsACloudThatComesAndGoes) {
     EXPECT_GT(method.primitives(), 1'000);
     for (const glm::vec4& pixel : empty.updateAndDraw(method).pixels) ASSERT_EQ(pixel, glm::vec4(0));
     EXPECT_EQ(few.updateAndDraw(method).pixels, first.pixels);
+}
+
+/// llvmpipe ends the loops of an invocation after 65,535 iterations: unnoticed, pixels would show a part of the puffs.
+TEST(ExactTiles, ShowsAllPuffsOfAPixelOrSaysThatItCannot) {
+    Cloud pile(70'000, 64, 48);
+    for (std::size_t i = 0; i < pile.dust.size(); ++i) {
+        pile.dust.x[i] = 0, pile.dust.y[i] = 1.2f, pile.dust.z[i] = -8;
+        pile.dust.radius[i] = 0.1f, pile.dust.opacity[i] = 1e-4f;
+    }
+    std::string message;
+    try {
+        ExactTiles method({});
+        method.prepare(pile.scene, {}, Cloud::device());
+        (void)pile.updateAndDraw(method);
+    } catch (const InputError& error) {
+        message = error.what();
+    }
+    if (Cloud::device().isSoftware())
+        EXPECT_THAT(message, testing::HasSubstr("exact_tiles: got too many puffs"));
+    else
+        EXPECT_EQ(message, "");
 }
 
 }  // namespace

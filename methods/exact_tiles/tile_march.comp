@@ -79,6 +79,7 @@ void main() {
             transmittance = left;
         }
     }
+    if (isCutShort()) atomicAdd(unfinished, 1u);
     if (any(greaterThanEqual(pixel, size))) return;
     float alpha = sum < 0.01 ? sum * (1.0 - sum * (0.5 - sum * (1.0 / 6.0))) : 1.0 - transmittance;
     imageStore(picture, pixel, vec4(colour, alpha));

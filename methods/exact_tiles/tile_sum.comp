@@ -45,6 +45,7 @@ void main() {
             sums[row] += depthAhead(puff, rays[row], there) * share;
         }
     }
+    if (isCutShort()) atomicAdd(unfinished, 1u);
     for (int row = 0; row < ROWS; ++row) {
         ivec2 pixel = first + ivec2(0, row);
         if (any(greaterThanEqual(pixel, size))) continue;

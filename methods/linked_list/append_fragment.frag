@@ -21,7 +21,6 @@ layout(std430, binding = 3) writeonly buffer Fragments {
 };
 layout(std430, binding = 4) buffer Counter {
     uint found, foundHigh;  // fragments, in 64 bits
-    uint unfinished;  // pixels
 };
 
 void main() {

@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "draw_shaders.h"
 #include "linked_list_shaders.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/gpu/layer.h"
@@ -20,7 +21,8 @@ constexpr int groupPixels = 8;                        ///< edge of a work group 
 void LinkedList::prepare(const scene::Scene&, const RunSetup&, gpu::Device& device) {
     device_ = &device;
     quads_.emplace(device, reach_);
-    counter_ = gpu::Buffer(device, "fragment counter", 3 * sizeof(std::uint32_t));
+    loops_.emplace(device);
+    counter_ = gpu::Buffer(device, "fragment counter", 2 * sizeof(std::uint32_t));
     std::map<std::string, std::string> definitions;
     if (puff_ == Puff::surface) definitions["SURFACE"] = "";
     append_ = draw::puffPass("linked lists: append", {linked_list_shaders::append_fragment_frag}, definitions);
@@ -28,7 +30,7 @@ void LinkedList::prepare(const scene::Scene&, const RunSetup&, gpu::Device& devi
 
 void LinkedList::update(const Frame& frame) {
     const auto timing = frame.clock.measure(Stage::upload);
-    quads_->upload(frame.dust);
+    frame.gpuDust ? quads_->gather(*frame.gpuDust) : quads_->upload(frame.dust);
 }
 
 void LinkedList::draw(const Frame& frame, gpu::Layer& layer) {
@@ -63,7 +65,7 @@ void LinkedList::append(const Frame& frame, gpu::Layer& layer) {
     counter_.bindStorage(4);
     layer.bindColourOnly();
     quads_->store(program, layer.sceneDepth());
-    std::array<std::uint32_t, 3> count{};
+    std::array<std::uint32_t, 2> count{};
     counter_.read(std::span<std::uint32_t>(count));
     found_ = count[0] + (std::uint64_t{count[1]} << 32);
 }
@@ -86,31 +88,22 @@ void LinkedList::sortAndBlend(const Frame& frame, gpu::Layer& layer) {
         std::map<std::string, std::string> definitions{{"FLOATS", std::to_string(quads_->floats())}};
         if (coloured) definitions["COLOURED"] = "";
         made.emplace(*device_, "linked lists: sort",
-                     std::initializer_list<gpu::ShaderFile>{linked_list_shaders::sort_fragments_comp}, definitions);
+                     std::initializer_list<gpu::ShaderFile>{draw_shaders::loop_limit_glsl,
+                                                            linked_list_shaders::sort_fragments_comp},
+                     definitions);
     }
     if (coloured)
         quads_->bindValues(0);
     else
         made->set("colourOfAll", frame.dust.colourOfAll);
-    made->set("probeIterations", 4);
     heads_.bindStorage(1);
     links_.bindStorage(2);
     fragments_.bindStorage(3);
-    counter_.bindStorage(4);
+    loops_->bind(*made);
     layer.colour().bindImage(0, false, true);
     const auto groups = [](int pixels) { return (pixels + groupPixels - 1) / groupPixels; };
     made->dispatch(groups(width_), groups(height_), 1);
-    if (device_->isSoftware()) requireSorted();  // hardware has no such limit, and reading would wait for it
-}
-
-void LinkedList::requireSorted() {
-    std::array<std::uint32_t, 3> count{};
-    counter_.read(std::span<std::uint32_t>(count));
-    if (count[2] > 0)
-        throw InputError(
-            "linked_list: got lists in " + std::to_string(count[2]) +
-            " pixels that are too long for this driver, which ends the loops of a shader after a number of "
-            "iterations; expected at most a few thousand fragments per pixel");
+    loops_->requireWholeLoops("linked_list");
 }
 
 void LinkedList::report(const Frame&, Facts& facts) const {
@@ -129,7 +122,7 @@ MemoryReport LinkedList::memory() const {
 }
 
 std::int64_t LinkedList::primitives() const {
-    return quads_ ? static_cast<std::int64_t>(quads_->count()) : 0;
+    return quads_ ? quads_->primitives() : 0;
 }
 
 MethodInfo describe() {
@@ -148,6 +141,7 @@ MethodInfo describe() {
               "half-side of a puff's quad in standard deviations; exp(-reach^2/2) of its depth is cut off");
     info.facts.push_back({"bits_per_pixel", "bit", FactOver::lastFrame,
                           "storage of the intermediate targets per pixel of the picture; of lists, the part in use"});
+    info.takesGpuDust = [](const ParameterValues&) { return true; };
     info.create = [](const ParameterValues& values) {
         return std::make_unique<LinkedList>(values.choice("puff", puffKinds), values.real("reach"),
                                             values.integer("fragments_per_pixel"));

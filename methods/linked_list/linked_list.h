@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "methods/contract/method.h"
+#include "methods/kit/draw/loop_limit.h"
 #include "methods/kit/draw/puff_quads.h"
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/program.h"
@@ -44,7 +45,6 @@ class LinkedList final : public Method {
     void append(const Frame& frame, gpu::Layer& layer);
     void requireRoom() const;
     void sortAndBlend(const Frame& frame, gpu::Layer& layer);
-    void requireSorted();
 
     Puff puff_;
     double reach_;
@@ -52,6 +52,7 @@ class LinkedList final : public Method {
     gpu::Device* device_ = nullptr;
     std::optional<draw::PuffQuads> quads_;
     std::optional<draw::FragmentPass> append_;
+    std::optional<draw::LoopLimit> loops_;
     std::optional<gpu::Program> blendOneColour_, blendColours_;  ///< compiled on first use
     gpu::Buffer heads_, links_, fragments_, counter_;
     int width_ = 0, height_ = 0;

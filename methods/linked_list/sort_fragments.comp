@@ -24,11 +24,6 @@ layout(std430, binding = 2) buffer Links {
 layout(std430, binding = 3) readonly buffer Fragments {
     vec2 fragments[];  // depth; alpha
 };
-layout(std430, binding = 4) buffer Counter {
-    uint found, foundHigh;
-    uint unfinished;  // pixels
-};
-uniform int probeIterations;  // more than one
 
 const int lengths = 32;
 uint sorted[lengths];
@@ -84,13 +79,6 @@ uint sortedList(uint fragment) {
     uint all = 0u;
     for (int i = 0; i < lengths; ++i) all = merged(sorted[i], all);
     return all;
-}
-
-/// Some drivers (Mesa's llvmpipe) end all loops of an invocation after a number of iterations, also those that follow.
-bool isCutShort() {
-    int iterations = 0;
-    while (iterations < probeIterations) ++iterations;
-    return iterations < probeIterations;
 }
 
 void main() {

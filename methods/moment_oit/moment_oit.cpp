@@ -67,8 +67,6 @@ std::size_t storedBytes(const Kind& kind) {
     return 2 * static_cast<std::size_t>(kind.count);
 }
 
-constexpr int momentTilePixels = 8;
-
 /// Offset and factor of the shaders' `warped`: it subtracts x, then multiplies by y.
 glm::vec2 warpUniform(const WarpedDepth& depth) {
     const double from = depth.warp == Warp::log ? std::log(depth.nearestMetres) : depth.nearestMetres;
@@ -152,27 +150,15 @@ void MomentOit::addMoments(const Frame& frame, const WarpedDepth& range, const g
 }
 
 void MomentOit::addQuantisedMoments(const Frame& frame, const WarpedDepth& range, const gpu::Layer& layer) {
-    if (!quantisedPass_ || floatsPerPuff_ != quads_->floats()) {
+    if (!quantisedPass_) {
         auto definitions = definitionsOf(settings_);
-        floatsPerPuff_ = quads_->floats();
-        definitions["FLOATS"] = std::to_string(floatsPerPuff_);
+        definitions["COLOURLESS"] = "";
         using namespace moment_oit_shaders;
-        quantisedPass_.emplace(
-            *device_, "quantised moments",
-            std::initializer_list<gpu::ShaderFile>{draw_shaders::error_function_glsl, draw_shaders::puff_ray_glsl,
-                                                   moments_glsl, quantise_glsl, quantised_sum_comp},
-            definitions);
+        quantisedPass_.emplace(*device_, "moment_oit",
+                               std::vector<gpu::ShaderFile>{moments_glsl, quantise_glsl, quantised_sum_comp},
+                               std::move(definitions), settings_.reachDeviations);
     }
-    const scene::View& view = frame.view;
-    const glm::mat4 clip = view.eyeToClip();
-    const glm::vec2 slopes(1 / clip[0][0], 1 / clip[1][1]);  // at the picture's edges
-    gpu::Program& program = *quantisedPass_;
-    program.set("rays", glm::vec4(2.0f * slopes / glm::vec2(view.width, view.height), -slopes));
-    program.set("nearMetres", static_cast<float>(view.camera.nearMetres));
-    program.set("reach", static_cast<float>(settings_.reachDeviations));
-    program.set("eye", glm::vec3(view.camera.eye));
-    program.set("worldToEye", view.worldToEye());
-    program.set("count", static_cast<int>(quads_->count()));
+    gpu::Program& program = quantisedPass_->begin(*quads_, frame);
     program.set("warp", warpUniform(range));
 
     const std::size_t bytes = storedBytes(settings_.kind) * static_cast<std::size_t>(layer.width()) *
@@ -184,12 +170,9 @@ void MomentOit::addQuantisedMoments(const Frame& frame, const WarpedDepth& range
                          " pixels on this device");
     if (quantisedMoments_.bytes() != bytes) quantisedMoments_ = gpu::Buffer(*device_, "quantised moments", bytes);
     moments_->begin(layer.width(), layer.height());
-    quads_->bindValues(0);
     quantisedMoments_.bindStorage(1);
-    layer.sceneDepth().bind(0);
     moments_->texture(0).bindImage(1, false, true);
-    const auto tiles = [](int pixels) { return (pixels + momentTilePixels - 1) / momentTilePixels; };
-    program.dispatch(tiles(layer.width()), tiles(layer.height()), 1);
+    quantisedPass_->run(*quads_, program, layer);
 }
 
 void MomentOit::report(const Frame&, Facts& facts) const {

@@ -19,6 +19,7 @@
 #include "methods/kit/draw/average_colour.h"
 #include "methods/kit/draw/puff_quads.h"
 #include "methods/kit/draw/sum_targets.h"
+#include "methods/kit/draw/tile_pass.h"
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/program.h"
 #include "methods/moment_oit/plain_moments.h"
@@ -79,9 +80,8 @@ class MomentOit final : public Method {
     std::optional<draw::SumTargets> moments_, colours_;
     std::optional<draw::AverageColour> average_;
     std::optional<draw::FragmentPass> momentPass_, colourPass_;
-    std::optional<gpu::Program> quantisedPass_;
+    std::optional<draw::TilePass> quantisedPass_;
     gpu::Buffer quantisedMoments_;
-    std::size_t floatsPerPuff_ = 0;  ///< that quantisedPass_ was compiled for
 };
 
 /// Called by the registry.

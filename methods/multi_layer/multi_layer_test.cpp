@@ -1,11 +1,13 @@
 #include "methods/multi_layer/multi_layer.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "methods/contract/errors.h"
 #include "methods/kit/maths/transmittance.h"
 #include "methods/kit/testing/test_moment.h"
 
@@ -237,6 +239,25 @@ TEST(MultiLayer, DrawsTheSameAgainAndFollowsACloudThatComesAndGoes) {
     Facts facts(info.facts, FactOver::lastFrame);
     method->report(few.frame(), facts);
     EXPECT_EQ(std::get<double>(facts.value("bits_per_pixel").value()), 4 * 160.0);
+}
+
+/// llvmpipe ends the loops of an invocation after 65,535 iterations: unnoticed, pixels would show a part of the puffs.
+TEST(MultiLayer, ShowsAllPuffsOfAPixelOrSaysThatItCannot) {
+    Cloud pile(70'000, 1, true);
+    for (std::size_t i = 0; i < pile.dust.size(); ++i) {
+        pile.dust.x[i] = 0, pile.dust.y[i] = 1.2f, pile.dust.z[i] = -8;
+        pile.dust.radius[i] = 0.1f, pile.dust.opacity[i] = 1e-4f;
+    }
+    std::string message;
+    try {
+        (void)pile.drawn(Puff::surface, 4);
+    } catch (const InputError& error) {
+        message = error.what();
+    }
+    if (Cloud::device().isSoftware())
+        EXPECT_THAT(message, testing::HasSubstr("multi_layer: got too many puffs"));
+    else
+        EXPECT_EQ(message, "");
 }
 
 }  // namespace

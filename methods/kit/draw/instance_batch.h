@@ -60,8 +60,12 @@ class DUSTBENCH_API InstanceBatch {
     [[nodiscard]] std::int64_t primitives() const {
         return gathered_ ? Method::onePerPuff : static_cast<std::int64_t>(count_);
     }
+    /// Of puffs that were gathered on the GPU, which alone knows their number.
+    [[nodiscard]] bool isGathered() const { return gathered_; }
     /// Binds the values of the shapes mapped last, for a pass that does not draw them.
     void bindValues(std::uint32_t binding) const { instances_.bindStorage(binding); }
+    /// Binds the number of gathered puffs, an int at its beginning.
+    void bindNumber(std::uint32_t binding) const { drawn_.bindStorage(binding); }
     [[nodiscard]] std::size_t gpuBytes() const { return instances_.bytes() + corners_.bytes() + drawn_.bytes(); }
 
  protected:
