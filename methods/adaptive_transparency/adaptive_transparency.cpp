@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adaptive_transparency_shaders.h"
+#include "methods/kit/draw/cost_facts.h"
 
 namespace dustbench::adaptive_transparency {
 namespace {
@@ -36,6 +37,7 @@ void AdaptiveTransparency::draw(const Frame& frame, gpu::Layer& layer) {
 
 void AdaptiveTransparency::report(const Frame&, Facts& facts) const {
     facts.set("bits_per_pixel", static_cast<double>(nodes_ * bitsPerNode));
+    facts.set("bytes_per_fragment", std::int64_t{0});
 }
 
 MemoryReport AdaptiveTransparency::memory() const {
@@ -61,8 +63,7 @@ MethodInfo describe() {
                  "nodes of a pixel's transmittance; pixels with at most this many fragments are blended in exact order")
         .real("reach", 3.5, 2, 6, "deviations",
               "radius of a puff in standard deviations; exp(-reach^2/2) of its depth is cut off");
-    info.facts.push_back({"bits_per_pixel", "bit", FactOver::lastFrame,
-                          "storage of the intermediate targets per pixel of the picture; of lists, the part in use"});
+    info.facts = {draw::bitsPerPixel(), draw::bytesPerFragment()};
     info.takesGpuDust = [](const ParameterValues&) { return true; };
     info.create = [](const ParameterValues& values) {
         return std::make_unique<AdaptiveTransparency>(values.choice("puff", puffKinds), values.real("reach"),

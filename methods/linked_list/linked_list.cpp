@@ -7,6 +7,7 @@
 #include "draw_shaders.h"
 #include "linked_list_shaders.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/draw/cost_facts.h"
 #include "methods/kit/gpu/layer.h"
 
 namespace dustbench::linked_list {
@@ -139,8 +140,7 @@ MethodInfo describe() {
                  "capacity of the lists, in fragments per pixel on average; a picture that needs more is an error")
         .real("reach", 3.5, 2, 6, "deviations",
               "half-side of a puff's quad in standard deviations; exp(-reach^2/2) of its depth is cut off");
-    info.facts.push_back({"bits_per_pixel", "bit", FactOver::lastFrame,
-                          "storage of the intermediate targets per pixel of the picture; of lists, the part in use"});
+    info.facts = {draw::bitsPerPixel()};
     info.takesGpuDust = [](const ParameterValues&) { return true; };
     info.create = [](const ParameterValues& values) {
         return std::make_unique<LinkedList>(values.choice("puff", puffKinds), values.real("reach"),

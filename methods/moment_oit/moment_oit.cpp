@@ -11,6 +11,7 @@
 
 #include "draw_shaders.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/draw/cost_facts.h"
 #include "methods/kit/maths/transmittance.h"
 #include "moment_oit_shaders.h"
 
@@ -176,10 +177,12 @@ void MomentOit::addQuantisedMoments(const Frame& frame, const WarpedDepth& range
 }
 
 void MomentOit::report(const Frame&, Facts& facts) const {
-    std::size_t bytes = gpu::bytesPerTexel(gpu::Format::rgba32F);  // weighted colours
-    for (const gpu::Format format : momentFormats(settings_.kind)) bytes += gpu::bytesPerTexel(format);
-    if (isQuantised()) bytes += storedBytes(settings_.kind);
-    facts.set("bits_per_pixel", 8.0 * static_cast<double>(bytes));
+    const std::size_t colours = gpu::bytesPerTexel(gpu::Format::rgba32F);
+    std::size_t moments = isQuantised() ? storedBytes(settings_.kind) : 0;
+    for (const gpu::Format format : momentFormats(settings_.kind)) moments += gpu::bytesPerTexel(format);
+    facts.set("bits_per_pixel", 8.0 * static_cast<double>(moments + colours));
+    // Moments are added to, unless they stay in the invocation, and read; colours are added to.
+    facts.set("bytes_per_fragment", static_cast<std::int64_t>((isQuantised() ? 1 : 3) * moments + 2 * colours));
 }
 
 MemoryReport MomentOit::memory() const {
@@ -227,8 +230,7 @@ MethodInfo describe() {
     info.parameters.preset("mode", "paper", {{"puff", "surface"}});
     info.parameters.preset("puff", "surface", {{"overestimation", "0.25"}});
     info.parameters.preset("profile", "point", {{"overestimation", "0.25"}});
-    info.facts.push_back({"bits_per_pixel", "bit", FactOver::lastFrame,
-                          "storage of the intermediate targets per pixel of the picture; of lists, the part in use"});
+    info.facts = {draw::bitsPerPixel(), draw::bytesPerFragment()};
     info.create = [](const ParameterValues& values) {
         Settings settings;
         settings.kind = {.basis = values.choice("basis", bases),

@@ -122,17 +122,26 @@ TEST(PublishedMomentOit, DrawsTheSameAgainAfterOtherClouds) {
     }
 }
 
-double bitsOf(const Kind& kind) {
-    const MethodInfo info = describe();
+Facts factsOf(const Kind& kind) {
+    static const MethodInfo info = describe();
     Cloud cloud(1, true);
     MomentOit method({.kind = kind});
     Facts facts(info.facts, FactOver::lastFrame);
     method.report(cloud.frame(), facts);
-    return std::get<double>(facts.value("bits_per_pixel").value());
+    return facts;
+}
+
+double bitsOf(const Kind& kind) {
+    return std::get<double>(factsOf(kind).value("bits_per_pixel").value());
 }
 
 TEST(PublishedMomentOit, CountsTheBitsOfItsTargets) {
     EXPECT_EQ(bitsOf({Basis::power, Precision::single, 4}), 128 + 160);
+    const auto bytesOf = [](const Kind& kind) {
+        return std::get<std::int64_t>(factsOf(kind).value("bytes_per_fragment").value());
+    };
+    EXPECT_EQ(bytesOf({Basis::power, Precision::single, 4}), 3 * 20 + 2 * 16) << "moments are added to and read";
+    EXPECT_EQ(bytesOf({Basis::power, Precision::quantised, 4}), 8 + 4 + 2 * 16) << "moments are only read";
     EXPECT_EQ(bitsOf({Basis::power, Precision::single, 6}), 128 + 256);
     EXPECT_EQ(bitsOf({Basis::trigonometric, Precision::single, 8}), 128 + 288);
     EXPECT_EQ(bitsOf({Basis::power, Precision::quantised, 4}), 128 + 96);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "methods/kit/draw/cost_facts.h"
 #include "multi_layer_shaders.h"
 
 namespace dustbench::multi_layer {
@@ -34,6 +35,7 @@ void MultiLayer::draw(const Frame& frame, gpu::Layer& layer) {
 
 void MultiLayer::report(const Frame&, Facts& facts) const {
     facts.set("bits_per_pixel", static_cast<double>(layers_ * bitsPerLayer));
+    facts.set("bytes_per_fragment", std::int64_t{0});
 }
 
 MemoryReport MultiLayer::memory() const {
@@ -59,8 +61,7 @@ MethodInfo describe() {
                  "layers per pixel; pixels with at most this many fragments are blended in exact order")
         .real("reach", 3.5, 2, 6, "deviations",
               "radius of a puff in standard deviations; exp(-reach^2/2) of its depth is cut off");
-    info.facts.push_back({"bits_per_pixel", "bit", FactOver::lastFrame,
-                          "storage of the intermediate targets per pixel of the picture; of lists, the part in use"});
+    info.facts = {draw::bitsPerPixel(), draw::bytesPerFragment()};
     info.takesGpuDust = [](const ParameterValues&) { return true; };
     info.create = [](const ParameterValues& values) {
         return std::make_unique<MultiLayer>(values.choice("puff", puffKinds), values.real("reach"),

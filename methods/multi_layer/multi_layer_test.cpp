@@ -239,6 +239,7 @@ TEST(MultiLayer, DrawsTheSameAgainAndFollowsACloudThatComesAndGoes) {
     Facts facts(info.facts, FactOver::lastFrame);
     method->report(few.frame(), facts);
     EXPECT_EQ(std::get<double>(facts.value("bits_per_pixel").value()), 4 * 160.0);
+    EXPECT_EQ(std::get<std::int64_t>(facts.value("bytes_per_fragment").value()), 0);
 }
 
 /// llvmpipe ends the loops of an invocation after 65,535 iterations: unnoticed, pixels would show a part of the puffs.

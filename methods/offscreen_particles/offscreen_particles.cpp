@@ -5,6 +5,7 @@
 #include <string>
 
 #include "draw_shaders.h"
+#include "methods/kit/draw/cost_facts.h"
 #include "methods/kit/gpu/draw_call.h"
 #include "offscreen_particles_shaders.h"
 
@@ -134,8 +135,7 @@ MethodInfo describe() {
                 "all, or the nearest texel")
         .choice("edges", Edges::mixed, edgeKinds,
                 "pixels at depth edges: drawn again at full resolution, or enlarged like all others");
-    info.facts = {{"bits_per_pixel", "bit", FactOver::lastFrame,
-                   "storage of the intermediate targets per pixel of the picture; of lists, the part in use"}};
+    info.facts = {draw::bitsPerPixel()};
     info.create = [](const ParameterValues& values) {
         return std::make_unique<OffscreenParticles>(Settings{values.choice("scale", scales),
                                                              values.choice("upsampling", upsamplings),

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/draw/cost_facts.h"
 #include "stochastic_transparency_shaders.h"
 
 namespace dustbench::stochastic_transparency {
@@ -72,6 +73,9 @@ void StochasticTransparency::draw(const Frame& frame, gpu::Layer& layer) {
 void StochasticTransparency::report(const Frame&, Facts& facts) const {
     const std::int64_t sums = settings_.alphaCorrection ? 32 * 5 : 0;
     facts.set("bits_per_pixel", std::int64_t{32} * settings_.samples + sums);
+    // All samples of an opaque fragment are updated, and read; its colour is added.
+    const std::int64_t added = settings_.alphaCorrection ? sums : 4 * 32;
+    facts.set("bytes_per_fragment", (3 * std::int64_t{32} * settings_.samples + 2 * added) / 8);
 }
 
 MemoryReport StochasticTransparency::memory() const {
@@ -99,8 +103,7 @@ MethodInfo describe() {
                 "a surface at the depth of the puff's centre, or a volume cut at the eye and the scene")
         .real("reach", 3.5, 2, 6, "deviations",
               "half-side of a puff's quad in standard deviations; exp(-reach^2/2) of its depth is cut off");
-    info.facts.push_back({"bits_per_pixel", "bit", FactOver::lastFrame,
-                          "storage of the intermediate targets per pixel of the picture; of lists, the part in use"});
+    info.facts = {draw::bitsPerPixel(), draw::bytesPerFragment()};
     info.create = [](const ParameterValues& values) {
         return std::make_unique<StochasticTransparency>(Settings{.samples = static_cast<int>(values.integer("samples")),
                                                                  .stratified = values.boolean("stratified"),

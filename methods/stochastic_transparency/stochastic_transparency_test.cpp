@@ -231,6 +231,7 @@ TEST(StochasticTransparency, DrawsTheSameAgainAndFollowsACloudThatComesAndGoes) 
     Facts facts(info.facts, FactOver::lastFrame);
     method->report(few.frame(), facts);
     EXPECT_EQ(std::get<std::int64_t>(facts.value("bits_per_pixel").value()), 8 * 32 + 160);
+    EXPECT_EQ(std::get<std::int64_t>(facts.value("bytes_per_fragment").value()), 3 * 8 * 4 + 2 * 20);
     std::size_t bytes = 0;
     for (const MemoryUse& use : method->memory())
         if (use.structure != "puffs") bytes += use.gpuBytes;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/draw/cost_facts.h"
 #include "methods/kit/maths/transmittance.h"
 #include "wavelet_oit_shaders.h"
 
@@ -125,7 +126,10 @@ void WaveletOit::draw(const Frame& frame, gpu::Layer& layer) {
 void WaveletOit::report(const Frame&, Facts& facts) const {
     const int each = settings_.storage == Storage::halves ? 16 : 32;
     const int bounds = settings_.bounds == Bounds::pixel ? bitsOfBounds : 0;
-    facts.set("bits_per_pixel", std::int64_t{each * coefficientsOfRank(settings_.rank) + bitsOfSums + bounds});
+    const int coefficients = each * coefficientsOfRank(settings_.rank);
+    facts.set("bits_per_pixel", std::int64_t{coefficients + bitsOfSums + bounds});
+    // Coefficients are added to and read, sums added to; bounds are widened and read twice.
+    facts.set("bytes_per_fragment", std::int64_t{(3 * coefficients + 2 * bitsOfSums + 4 * bounds) / 8});
 }
 
 MemoryReport WaveletOit::memory() const {
@@ -161,8 +165,7 @@ MethodInfo describe() {
                 "of its own")
         .real("reach", 3.5, 2, 6, "deviations",
               "half-side of a puff's quad in standard deviations; exp(-reach^2/2) of its depth is cut off");
-    info.facts.push_back({"bits_per_pixel", "bit", FactOver::lastFrame,
-                          "storage of the intermediate targets per pixel of the picture; of lists, the part in use"});
+    info.facts = {draw::bitsPerPixel(), draw::bytesPerFragment()};
     info.create = [](const ParameterValues& values) {
         return std::make_unique<WaveletOit>(Settings{.rank = static_cast<int>(values.integer("rank")),
                                                      .storage = values.choice("coefficients", storages),

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "draw_shaders.h"
+#include "methods/kit/draw/cost_facts.h"
 #include "methods/kit/gpu/draw_call.h"
 #include "weighted_oit_shaders.h"
 
@@ -97,6 +98,7 @@ void WeightedOit::report(const Frame&, Facts& facts) const {
     const std::size_t bytes =
         gpu::bytesPerTexel(formatOf(settings_.accumulation)) + gpu::bytesPerTexel(formatOf(settings_.revealage));
     facts.set("bits_per_pixel", static_cast<std::int64_t>(8 * bytes));
+    facts.set("bytes_per_fragment", static_cast<std::int64_t>(2 * bytes));
 }
 
 MemoryReport WeightedOit::memory() const {
@@ -131,8 +133,7 @@ MethodInfo describe() {
               "half-side of a puff's quad in standard deviations; exp(-reach^2/2) of its depth is cut off")
         .choice("mode", "fixed", {"fixed", "paper"}, "paper: blended as published")
         .preset("mode", "paper", {{"accumulation", "rgba16f"}, {"revealage", "r8"}, {"puff", "surface"}});
-    info.facts.push_back({"bits_per_pixel", "bit", FactOver::lastFrame,
-                          "storage of the intermediate targets per pixel of the picture; of lists, the part in use"});
+    info.facts = {draw::bitsPerPixel(), draw::bytesPerFragment()};
     info.takesGpuDust = [](const ParameterValues&) { return true; };
     info.create = [](const ParameterValues& values) {
         return std::make_unique<WeightedOit>(Settings{.weight = values.choice("weight", weights),

@@ -327,6 +327,7 @@ TEST(WeightedOit, BlendsAsPublishedInModePaper) {
             if (use.structure == "weighted sums") bytes = static_cast<std::int64_t>(use.gpuBytes);
         const auto reported = std::get<std::int64_t>(facts.value("bits_per_pixel").value());
         EXPECT_EQ(8 * bytes, 96 * 72 * reported);
+        EXPECT_EQ(std::get<std::int64_t>(facts.value("bytes_per_fragment").value()), reported / 4) << "added to once";
         return reported;
     };
     EXPECT_EQ(bits(fixed), 160);

@@ -100,7 +100,7 @@ const chartData = (() => {
     const costsOf = (report, experiment) => known(report, experiment, 'cost');
     const metricsOf = (report, experiment) => (has(experiment, 'flip') ? known(report, experiment, 'metric') : []);
     /// The costs that image error can be plotted against. Runs without times have only memory and primitives.
-    const charges = ['frame_ms_median', 'method_ms_median', 'memory_bytes', 'gpu_bytes', 'cpu_bytes', 'bits_per_pixel', 'primitives_median'];
+    const charges = ['frame_ms_median', 'method_ms_median', 'memory_bytes', 'gpu_bytes', 'cpu_bytes', 'bits_per_pixel', 'bytes_per_fragment', 'primitives_median'];
     const chargesOf = (report, experiment) => charges.filter(name => costsOf(report, experiment).includes(name));
     /// Whether the suite's `chart` is one of error against cost: the page then shows it first.
     const opensOnCost = experiment => charges.includes((experiment.chart || {}).against);

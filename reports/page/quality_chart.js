@@ -46,7 +46,8 @@ const qualityChart = (() => {
         const front = compared.flatMap(here => frontOf(here, info.better === 'high'));
         const budgets = against === 'method_ms_median' && experiment.budgetMs ? [{ x: experiment.budgetMs, text: `budget ${withUnit(experiment.budgetMs, cost.unit, 6, true)}` }] : [];
         const xLog = (chart.xLog ?? spans(points.map(point => point.x), 8)) && points.every(point => point.xLow > 0);
-        const yLog = (chart.yLog ?? false) && points.every(point => point.yLow > 0);
+        // Errors of good and bad methods lie decades apart; decibels never do.
+        const yLog = (chart.yLog ?? (info.better === 'low' && spans(points.map(point => point.y), 30))) && points.every(point => point.yLow > 0);
         const series = distinct(points.map(point => point.series)).map(name => ({ name, method: points.find(point => point.series === name).method }));
         const styles = seriesStyles(report, series, theme);
         const { columns, each } = panelsWithin(chart.width, panels.length);
