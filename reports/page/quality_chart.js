@@ -45,7 +45,10 @@ const qualityChart = (() => {
         const compared = panels.map(panel => points.filter(point => point.panel === panel)).filter(here => here.length > 1);
         const front = compared.flatMap(here => frontOf(here, info.better === 'high'));
         const budgets = against === 'method_ms_median' && experiment.budgetMs ? [{ x: experiment.budgetMs, text: `budget ${withUnit(experiment.budgetMs, cost.unit, 6, true)}` }] : [];
-        const xLog = (chart.xLog ?? spans(points.map(point => point.x), 8)) && points.every(point => point.xLow > 0);
+        const xLog = (chart.xLog ?? spans(points.map(point => point.x), 8)) && points.every(point => point.x > 0);
+        // On a logarithmic axis, intervals that reach 0 end at its edge.
+        const least = 0.5 * Math.min(...points.map(point => point.x));
+        if (xLog) points.forEach(point => { point.xLow = Math.max(point.xLow, least); });
         // Errors of good and bad methods lie decades apart; decibels never do.
         const yLog = (chart.yLog ?? (info.better === 'low' && spans(points.map(point => point.y), 30))) && points.every(point => point.yLow > 0);
         const series = distinct(points.map(point => point.series)).map(name => ({ name, method: points.find(point => point.series === name).method }));
