@@ -73,6 +73,7 @@ struct Product {
 const std::vector<Product> products{
     {"billboard", {}, {"puff", "soft", "facing"}, true},
     {"billboard", {{"alpha", "plain"}}, {"puff", "soft"}, true},
+    {"billboard", {{"raster", "tiles"}}, {"alpha", "soft", "facing"}, true},
     {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"advection", "limit", "velocity_at"}},
     {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"pressure", "vorticity"}},
     {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"fluid", "shadow_cells"}},
