@@ -68,8 +68,11 @@ struct Stepped {
     FrameRunner runner;
 };
 
-const std::vector<std::pair<std::string, ParameterTexts>> takers{
-    {"billboard", {}}, {"billboard", {{"raster", "tiles"}}}, {"weighted_oit", {}}, {"null_method", {}}};
+const std::vector<std::pair<std::string, ParameterTexts>> takers{{"billboard", {}},
+                                                                 {"billboard", {{"raster", "tiles"}}},
+                                                                 {"weighted_oit", {}},
+                                                                 {"weighted_oit", {{"raster", "tiles"}}},
+                                                                 {"null_method", {}}};
 
 TEST_F(GpuDustRun, ReadsNothingBackInAFrame) {
     gpu::Device device;
@@ -97,6 +100,7 @@ TEST_F(GpuDustRun, DrawsThePictureOfDustOnTheCpu) {
         {"billboard", {{"sort", "none"}}},
         {"billboard", {{"raster", "tiles"}}},
         {"weighted_oit", {}},
+        {"weighted_oit", {{"raster", "tiles"}}},
         {"weighted_oit", {{"mode", "paper"}}}};
     for (const char* scene : {"plain", "two_soils"})
         for (const auto& [method, parameters] : settings) {

@@ -89,6 +89,8 @@ const std::vector<Product> products{
     {"multi_layer", {}, {"puff"}, true},
     {"adaptive_transparency", {}, {"puff"}, true},
     {"weighted_oit", {}, {"weight"}, true},
+    {"weighted_oit", {{"raster", "tiles"}}, {"weight"}, true},
+    {"weighted_oit", {{"raster", "tiles"}}, {"puff"}, true},
     {"weighted_oit", {}, {"puff", "accumulation", "revealage"}, true},
     {"offscreen_particles", {}, {"upsampling", "edges"}, true},
     {"stochastic_transparency", {}, {"puff", "stratified", "alpha_correction"}, true},

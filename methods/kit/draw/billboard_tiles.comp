@@ -1,14 +1,13 @@
-// Blends the billboards of a tile of 8 × 8 pixels, an invocation for each pixel, from the nearest to the farthest:
+// Blends the billboards of a tile (tile_shapes.glsl) from the nearest to the farthest:
 //
 //     C ← C + T·α·c,   A ← A + T·α,   T ← T·(1 − α)
 //
-// which is the hardware's C ← α·c + (1 − α)·C from the farthest to the nearest. Each invocation also prepares one of 64
-// billboards: its pixels, and its place along a ray as linear functions of the pixel,
+// which is the hardware's C ← α·c + (1 − α)·C from the farthest to the nearest. The place of a pixel on a billboard follows
+// from linear functions of the pixel,
 //
 //     W = 1 / distance along the axis,   U/W and V/W: place on the quad, −1 to 1 times `edge`.
 //
 // A tile ends when no pixel lets more through than a 32-bit alpha can tell from none.
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D sceneDepth;
 layout(binding = 0) writeonly uniform image2D layer;
 uniform vec3 puffColour;  // unless instances have their own
@@ -27,18 +26,13 @@ shared vec2 nearness[shapesAtOnce];  // of billboards.vert; 1: irregular
 #ifdef SOFT
 shared vec4 centres[shapesAtOnce];  // eye space; 1/(√2·s)
 #endif
-shared uvec2 pixels[shapesAtOnce];  // that a billboard covers
-shared uint drawn[2][2];            // a bit for each billboard that covers some of the lower and the upper four rows
-shared uint seen;                   // whether a pixel still lets light through
 
-void prepare(uint slot, uint shape, ivec2 tilePixel) {
+void prepareShape(uint slot, uint shape, ivec2 tilePixel) {
     Quad quad = quadOfShape(shape);
     if (!(quad.radius > 0.0)) return;
-    Outline outline = outlineOf(quad);
+    Outline outline = outlineOf(cornersOf(quad));
     uvec2 covered = outline.regular ? coverageOf(outline, tilePixel) : uvec2(0xffffffffu);
-    pixels[slot] = covered;
-    for (int rows = 0; rows < 2; ++rows)
-        if (covered[rows] != 0u) atomicOr(drawn[rows][slot >> 5], 1u << (slot & 31u));
+    cover(slot, covered);
     if (covered == uvec2(0)) return;
 
     // A pixel's ray is (x, y, −1), and meets the quad's plane at the distance 1/W along the axis.
@@ -50,12 +44,13 @@ void prepare(uint slot, uint shape, ivec2 tilePixel) {
         vec2 offset = (vec2(tilePixel) - pixelOf(quad.centre)) * slope;
         u = vec3(dot(offset, quad.right.xy), quad.right.xy * slope) * scale;
         v = vec3(dot(offset, quad.up.xy), quad.up.xy * slope) * scale;
-        w = vec3(1.0 / -quad.centre.z + dot(offset, quad.normal.xy) * inverseMetres, quad.normal.xy * slope * inverseMetres);
+        w = vec3(dot(offset, quad.normal.xy), quad.normal.xy * slope) * inverseMetres;
+        w.x += 1.0 / -quad.centre.z;
     } else {
-        vec3 ray = vec3((vec2(tilePixel) - 0.5 * vec2(picture.xy)) * slope, -1);
-        w = vec3(dot(ray, quad.normal), quad.normal.xy * slope) * inverseMetres;
-        u = (vec3(dot(ray, quad.right), quad.right.xy * slope) - w * dot(quad.centre, quad.right)) * scale;
-        v = (vec3(dot(ray, quad.up), quad.up.xy * slope) - w * dot(quad.centre, quad.up)) * scale;
+        vec3 first = vec3((vec2(tilePixel) - 0.5 * vec2(picture.xy)) * slope, -1);
+        w = vec3(dot(first, quad.normal), quad.normal.xy * slope) * inverseMetres;
+        u = (vec3(dot(first, quad.right), quad.right.xy * slope) - w * dot(quad.centre, quad.right)) * scale;
+        v = (vec3(dot(first, quad.up), quad.up.xy * slope) - w * dot(quad.centre, quad.up)) * scale;
     }
     across[slot] = vec4(u.xy, w.xy);
     upwards[slot] = vec4(v, w.z);
@@ -72,26 +67,25 @@ void prepare(uint slot, uint shape, ivec2 tilePixel) {
 #endif
 }
 
-/// The pixel's ray and what it meets.
+/// The pixel's ray.
 struct Ray {
-    vec2 place;  // pixels from the tile's first corner
-    float depth;  // of the scene, reversed
-    vec3 direction;  // of length 1
+    vec2 place;       // pixels from the tile's first corner
+    float depth;      // of the scene, reversed
+    vec3 direction;   // of length 1
     float sceneMetres;
 };
+Ray ray;
 
-Ray rayOf(ivec2 pixel) {
-    Ray ray;
+void setRay(ivec2 pixel) {
     ray.place = vec2(gl_LocalInvocationID.xy) + 0.5;
     ray.depth = texelFetch(sceneDepth, min(pixel, picture.xy - 1), 0).r;
     vec3 along = vec3((2.0 * (vec2(pixel) + 0.5) / vec2(picture.xy) - 1.0) / projection.xy, -1);
     ray.direction = normalize(along);
     ray.sceneMetres = projection.z / max(ray.depth, 1e-9) * length(along);
-    return ray;
 }
 
 /// α of the billboard in a slot; 0 if it is not drawn there.
-float opacityAt(uint slot, Ray ray) {
+float opacityAt(uint slot) {
     vec4 a = across[slot], b = upwards[slot];
     float u = a.x + a.y * ray.place.x, v = b.x + b.y * ray.place.x + b.z * ray.place.y;
     float w = a.z + a.w * ray.place.x + b.w * ray.place.y;
@@ -119,37 +113,24 @@ float opacityAt(uint slot, Ray ray) {
 #endif
 }
 
-void main() {
-    uint own = gl_LocalInvocationIndex, rows = own >> 5, bit = 1u << (own & 31u);
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), tilePixel = 8 * ivec2(gl_WorkGroupID.xy);
-    openLists(ivec2(gl_WorkGroupID.xy), own);
-    if (listCount == 0u) return;
+vec4 sum;
+float transmittance;
 
+void drawShape(uint slot) {
+    float alpha = opacityAt(slot);
+    sum += transmittance * alpha * vec4(looks[slot].rgb, 1.0);
+    transmittance *= 1.0 - alpha;
+}
+
+bool needsMore() {
+    return transmittance > leastTransmittance;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     bool inPicture = all(lessThan(pixel, picture.xy));
-    Ray ray = rayOf(pixel);
-    vec4 sum = vec4(0);
-    float transmittance = inPicture ? 1.0 : 0.0;
-    bool more = true;
-    // llvmpipe ends a loop after 65,535 iterations.
-    while (more)
-        for (int batch = 0; batch < 32768 && more; ++batch) {
-            if (own < 4u) drawn[own >> 1][own & 1u] = 0u;
-            if (own == 0u) seen = 0u;
-            uint shape, found = nextShapes(own, shape);
-            if (own < found) prepare(own, shape, tilePixel);
-            if (transmittance > leastTransmittance) seen = 1u;
-            barrier();
-            more = found > 0u && seen > 0u;
-            if (more)
-                for (uint word = 0u; word < 2u; ++word)
-                    for (uint left = drawn[rows][word]; left != 0u; left &= left - 1u) {
-                        uint slot = 32u * word + uint(findLSB(left));
-                        if ((pixels[slot][rows] & bit) == 0u) continue;
-                        float alpha = opacityAt(slot, ray);
-                        sum += transmittance * alpha * vec4(looks[slot].rgb, 1.0);
-                        transmittance *= 1.0 - alpha;
-                    }
-            barrier();
-        }
-    if (inPicture) imageStore(layer, pixel, sum);
+    setRay(pixel);
+    sum = vec4(0);
+    transmittance = inPicture ? 1.0 : 0.0;
+    if (drawTile() && inPicture) imageStore(layer, pixel, sum);
 }

@@ -22,13 +22,14 @@ std::map<std::string, std::string> tileDefinitions(const BillboardStyle& style) 
 }  // namespace
 
 TileBillboards::TileBillboards(gpu::Device& device, const BillboardStyle& style)
-    : lists_(device, "billboards", {draw_shaders::billboard_quad_glsl, draw_shaders::billboard_pixels_glsl},
+    : lists_(device, "billboards",
+             {draw_shaders::billboard_quad_glsl, draw_shaders::quad_pixels_glsl, draw_shaders::billboard_pixels_glsl},
              tileDefinitions(style)),
-      blend_(
-          device, "billboards in tiles",
-          {draw_shaders::error_function_glsl, draw_shaders::tile_pyramid_glsl, draw_shaders::tile_shapes_glsl,
-           draw_shaders::billboard_quad_glsl, draw_shaders::billboard_pixels_glsl, draw_shaders::billboard_tiles_comp},
-          tileDefinitions(style)) {}
+      blend_(device, "billboards in tiles",
+             {draw_shaders::error_function_glsl, draw_shaders::tile_pyramid_glsl, draw_shaders::tile_shapes_glsl,
+              draw_shaders::billboard_quad_glsl, draw_shaders::quad_pixels_glsl, draw_shaders::billboard_pixels_glsl,
+              draw_shaders::billboard_tiles_comp},
+             tileDefinitions(style)) {}
 
 void TileBillboards::prepare(gpu::Program& program, const Billboards& billboards, const scene::View& view) const {
     const glm::mat4 eyeToClip = view.eyeToClip();

@@ -110,12 +110,11 @@ struct NamedStyle {
     const char* name;
     BillboardStyle style;
 };
-constexpr std::array<NamedStyle, 6> tileStyles{{{"viewpoint", {}},
-                                                {"viewplane", {.facing = Facing::viewplane}},
-                                                {"soft", {.soft = true}},
-                                                {"soft viewplane", {.facing = Facing::viewplane, .soft = true}},
-                                                {"plain", {.plainAlpha = true}},
-                                                {"soft plain", {.soft = true, .plainAlpha = true}}}};
+constexpr std::array<NamedStyle, 4> tileStyles{
+    {{"viewpoint", {}},
+     {"viewplane", {.facing = Facing::viewplane}},
+     {"soft", {.soft = true}},
+     {"soft plain viewplane", {.facing = Facing::viewplane, .soft = true, .plainAlpha = true}}}};
 
 /// Puffs in front of the eye, of one colour and of several, and a cloud around it: behind the eye, cut by the near
 /// plane, and larger than the picture.

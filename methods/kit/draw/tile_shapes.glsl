@@ -1,5 +1,16 @@
-// The shapes that may cover a tile, from the last in their order to the first, 64 at a time: merges the lists of the
-// tiles of all levels that contain it. For work groups of 64 invocations; all of them must call these functions.
+// Draws the shapes that may cover a tile of 8 × 8 pixels, an invocation for each pixel, from the last shape in their order
+// to the first. The lists of the tiles of all levels that contain the tile are merged, 64 shapes at a time.
+//
+// A shader with this piece calls drawTile() from its `main`, and defines:
+layout(local_size_x = 8, local_size_y = 8) in;
+
+/// Prepares a shape in a slot of shared memory, and calls `cover`. `tilePixel`: first pixel of the tile.
+void prepareShape(uint slot, uint shape, ivec2 tilePixel);
+/// Draws the shape in a slot at the invocation's pixel.
+void drawShape(uint slot);
+/// Whether further shapes can change the invocation's pixel. The tile ends when this is true for none.
+bool needsMore();
+
 layout(std430, binding = 1) restrict readonly buffer Ranges {
     uvec2 ranges[];  // begin and end of each tile's list
 };
@@ -14,8 +25,19 @@ shared uint listCount;
 shared uint heads[maximumLevels * shapesAtOnce];  // last shapes of each list's rest, plus 1; 0: none
 shared uint takenOf[maximumLevels];
 shared uint merged[shapesAtOnce];
+shared uvec2 coveredBy[shapesAtOnce];  // pixels of the shape in a slot
+shared uint shapesIn[4];               // slots of shapes in the lower four rows, 32 bits each, then in the upper four
+shared uint unfinished;                // whether a pixel needs more
 
-/// Starts with the lists of a tile of level 0.
+/// For prepareShape: a bit for each pixel that the shape covers, row by row (quad_pixels.glsl).
+void cover(uint slot, uvec2 pixels) {
+    coveredBy[slot] = pixels;
+    uint bit = 1u << (slot & 31u), word = slot >> 5;
+    if (pixels.x != 0u) atomicOr(shapesIn[word], bit);
+    if (pixels.y != 0u) atomicOr(shapesIn[2u + word], bit);
+}
+
+/// Starts with the lists of a tile of level 0. All invocations must call this and the next functions.
 void openLists(ivec2 tile, uint slot) {
     if (slot < uint(picture.z)) {
         int level = int(slot);
@@ -79,4 +101,33 @@ uint nextShapes(uint slot, out uint shape) {
     }
     shape = slot < found ? merged[slot] : 0u;
     return found;
+}
+
+/// False if no shape may cover the tile; then nothing was called.
+bool drawTile() {
+    uint own = gl_LocalInvocationIndex, rows = own >> 5, bit = 1u << (own & 31u);
+    ivec2 tile = ivec2(gl_WorkGroupID.xy);
+    openLists(tile, own);
+    if (listCount == 0u) return false;
+    bool more = true;
+    // llvmpipe ends a loop after 65,535 iterations.
+    while (more)
+        for (int batch = 0; batch < 32768 && more; ++batch) {
+            if (own < 4u) shapesIn[own] = 0u;
+            if (own == 0u) unfinished = 0u;
+            uint shape, found = nextShapes(own, shape);
+            if (own < found) prepareShape(own, shape, 8 * tile);
+            if (needsMore()) unfinished = 1u;
+            barrier();
+            bool wanted = unfinished > 0u;
+            more = found == shapesAtOnce && wanted;
+            for (uint word = 0u; wanted && word < 2u; ++word)
+                for (uint left = shapesIn[2u * rows + word]; left != 0u; left &= left - 1u) {
+                    uint slot = 32u * word + uint(findLSB(left));
+                    uint pixels = rows == 0u ? coveredBy[slot].x : coveredBy[slot].y;
+                    if ((pixels & bit) != 0u) drawShape(slot);
+                }
+            barrier();
+        }
+    return true;
 }
