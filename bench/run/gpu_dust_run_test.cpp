@@ -69,13 +69,17 @@ struct Stepped {
 };
 
 /// Without those that read their pixels' counters: linked_list, and on a software renderer all with a LoopLimit.
-constexpr const char* takers[]{"billboard", "weighted_oit", "null_method"};
+const std::vector<std::pair<std::string, ParameterTexts>> takers{{"billboard", {}},
+                                                                 {"billboard", {{"raster", "tiles"}}},
+                                                                 {"weighted_oit", {}},
+                                                                 {"weighted_oit", {{"raster", "tiles"}}},
+                                                                 {"null_method", {}}};
 
 TEST_F(GpuDustRun, ReadsNothingBackInAFrame) {
     gpu::Device device;
-    for (const char* method : takers) {
+    for (const auto& [method, parameters] : takers) {
         if (!hasMethod(method)) continue;
-        RunSpec spec = specOf(method, DustOn::gpu);
+        RunSpec spec = specOf(method, DustOn::gpu, parameters);
         spec.sync = Sync::none;
         Stepped stepped(spec, device);
         for (int index = -40; index < -2; ++index) stepped.runner.stepWithoutPicture(index);
@@ -95,7 +99,9 @@ TEST_F(GpuDustRun, DrawsThePictureOfDustOnTheCpu) {
         {"billboard", {}},
         {"billboard", {{"soft", "on"}, {"facing", "viewplane"}}},
         {"billboard", {{"sort", "none"}}},
+        {"billboard", {{"raster", "tiles"}}},
         {"weighted_oit", {}},
+        {"weighted_oit", {{"raster", "tiles"}}},
         {"weighted_oit", {{"mode", "paper"}}},
         {"multi_layer", {}},
         {"adaptive_transparency", {}},

@@ -1,5 +1,6 @@
 #include "methods/billboard/billboard.h"
 
+#include "methods/contract/errors.h"
 #include "methods/contract/volume.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/parallel/for_each_block.h"
@@ -36,12 +37,16 @@ float frameOf(const Puffs& dust, std::size_t i, Puff puff, int frames) {
 Billboard::Billboard(const Settings& settings) : settings_(settings), sort_(ledger_) {
     if (settings.opacity == draw::OpacityFrom::age)
         byAge_.emplace(ledger_.account("opacities by age"), settings.youngOpacity);
+    if (settings.raster == Raster::tiles && settings.puff != Puff::gaussian)
+        throw InputError("parameter raster: got tiles with puff=" + std::string(puffs.wordOf(settings.puff)) +
+                         ", allowed: tiles with puff=gaussian, or hardware");
 }
 
 void Billboard::prepare(const scene::Scene&, const RunSetup&, gpu::Device& device) {
     device_ = &device;
     pictures_ = loadPictures(settings_.puff, device);
     quads_.emplace(device, settings_.style, pictures_ ? &*pictures_ : nullptr);
+    if (settings_.raster == Raster::tiles) tiles_.emplace(device, settings_.style);
 }
 
 void Billboard::updateOnGpu(const Frame& frame) {
@@ -96,7 +101,10 @@ void Billboard::upload(const Puffs& dust, std::span<const float> opacity, std::s
 }
 
 void Billboard::draw(const Frame& frame, gpu::Layer& layer) {
-    quads_->draw(frame.view, frame.dust.colourOfAll, layer);
+    if (tiles_)
+        tiles_->draw(*quads_, frame.view, frame.dust.colourOfAll, layer, frame.clock);
+    else
+        quads_->draw(frame.view, frame.dust.colourOfAll, layer);
 }
 
 void Billboard::volume(const Frame& frame, VolumeVisitor& visitor) const {
@@ -109,6 +117,7 @@ MemoryReport Billboard::memory() const {
     MemoryReport report;
     for (const auto& [structure, bytes] : ledger_.entries()) report.push_back({structure, bytes, 0});
     if (quads_) report.push_back({"billboards", 0, quads_->gpuBytes()});
+    if (tiles_) report.push_back({"lists of tiles", 0, tiles_->bytes()});
     if (gpuOrder_) report.push_back({"depth order", 0, gpuOrder_->bytes()});
     if (pictures_) report.push_back({"puff pictures", 0, pictures_->texture().bytes()});
     return report;
@@ -136,7 +145,10 @@ MethodInfo describe() {
                 "turn each quad towards the camera's position, or keep all quads parallel to the image plane")
         .choice("alpha", Alpha::optical, alphas,
                 "meaning of a puff's picture: optical depth, or, as in the paper, a factor on the puff's opacity "
-                "(puff=gaussian is then a circle that fades smoothly)");
+                "(puff=gaussian is then a circle that fades smoothly)")
+        .choice("raster", Raster::hardware, rasters,
+                "blend with the GPU's rasteriser, or tile by tile in a compute shader, for GPUs that hardly rasterise; "
+                "the same picture; tiles need puff=gaussian");
     draw::declareOpacity(info.parameters);
     info.parameters.choice("mode", "fixed", {"fixed", "paper"}, "draw by the optical model, or as in the paper")
         .preset("mode", "paper", {{"sort", "quicksort"}, {"puff", "texture"}, {"alpha", "plain"}, {"opacity", "age"}});
@@ -154,6 +166,7 @@ MethodInfo describe() {
         settings.style.plainAlpha = values.choice("alpha", alphas) == Alpha::plain;
         settings.opacity = values.choice("opacity", draw::opacityOrigins);
         settings.youngOpacity = values.real("young_opacity");
+        settings.raster = values.choice("raster", rasters);
         settings.style.facing = values.choice("facing", draw::facings);
         return std::make_unique<Billboard>(settings);
     };

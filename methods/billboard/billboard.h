@@ -3,7 +3,7 @@
 // Source: Carr2006, 3.1. `mode=paper` draws as the paper does: quicksort, one puff picture, opacity by age alone times
 // the picture's alpha. Departs in `mode=fixed`: opacity follows the optical model shared by all methods
 // (maths/transmittance.h). `puff` selects the paper's single puff picture, several pictures or an animation; `soft`
-// fades quads out where they meet opaque surfaces.
+// fades quads out where they meet opaque surfaces. `raster=tiles` draws the same layer without the GPU's rasteriser.
 #pragma once
 
 #include <memory>
@@ -15,6 +15,7 @@
 #include "methods/kit/draw/depth_sort.h"
 #include "methods/kit/draw/gpu_depth_order.h"
 #include "methods/kit/draw/puff_textures.h"
+#include "methods/kit/draw/tile_billboards.h"
 
 namespace dustbench::billboard {
 
@@ -31,16 +32,25 @@ enum class Alpha {
 };
 inline constexpr Choices<Alpha> alphas{{"optical", Alpha::optical}, {"plain", Alpha::plain}};
 
+/// What blends the billboards.
+enum class Raster {
+    hardware,  ///< the GPU's rasteriser and blending units
+    tiles,     ///< a compute shader, tile by tile
+};
+inline constexpr Choices<Raster> rasters{{"hardware", Raster::hardware}, {"tiles", Raster::tiles}};
+
 struct Settings {
     draw::SortKind sort = draw::SortKind::radix;
     Puff puff = Puff::gaussian;
     draw::OpacityFrom opacity = draw::OpacityFrom::dust;
     double youngOpacity = 0.5;
     draw::BillboardStyle style{};
+    Raster raster = Raster::hardware;
 };
 
 class Billboard final : public Method {
  public:
+    /// Throws InputError for pictures with `raster=tiles`.
     explicit Billboard(const Settings& settings);
 
     void prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) override;
@@ -60,6 +70,7 @@ class Billboard final : public Method {
     std::optional<draw::AgeOpacity> byAge_;
     std::optional<draw::PuffTextures> pictures_;
     std::optional<draw::Billboards> quads_;
+    std::optional<draw::TileBillboards> tiles_;    ///< if `raster` is tiles
     std::optional<draw::GpuDepthOrder> gpuOrder_;  ///< made for the first dust on the GPU
     gpu::Device* device_ = nullptr;
 };

@@ -123,6 +123,35 @@ TEST(Billboard, DrawsTheSameAgainInEveryMode) {
         for (std::size_t j = 0; j < i; j += 4) EXPECT_GT(largestDifference(pictures[i], pictures[j], true), 0.01);
 }
 
+TEST(Billboard, DrawsTheSamePictureInTiles) {
+    Moment moment(300);
+    moment.dust.keepOneColour(false);
+    for (std::size_t i = 0; i < moment.dust.size(); ++i) {
+        moment.dust.red[i] = moment.dust.opacity[i];
+        moment.dust.green[i] = moment.dust.age[i] / 5;
+        moment.dust.blue[i] = 1;
+    }
+    moment.setWall(15, 100);
+    using Values = std::vector<std::pair<std::string, std::string>>;
+    for (Values values :
+         {Values{}, Values{{"sort", "none"}, {"soft", "true"}}, Values{{"sort", "quicksort"}, {"facing", "viewplane"}},
+          Values{{"alpha", "plain"}, {"opacity", "age"}}}) {
+        const pictures::Image hardware = moment.updateAndDraw(*prepared(moment, values));
+        values.emplace_back("raster", "tiles");
+        const auto method = prepared(moment, values);
+        const pictures::Image tiles = moment.updateAndDraw(*method);
+        std::size_t different = 0;  // at the edges of quads, see the tests of TileBillboards
+        for (std::size_t i = 0; i < tiles.pixels.size(); ++i)
+            for (int c = 0; c < 4; ++c)
+                different += std::abs(tiles.pixels[i][c] - hardware.pixels[i][c]) > 1e-5f ? 1 : 0;
+        EXPECT_LE(different, 40u);
+        EXPECT_LT(largestDifference(tiles, hardware, false), 0.02);
+        EXPECT_EQ(method->primitives(), 300);
+    }
+    EXPECT_THROW(prepared(moment, {{"raster", "tiles"}, {"puff", "texture"}}), InputError);
+    EXPECT_THROW(prepared(moment, {{"raster", "tiles"}, {"mode", "paper"}}), InputError);
+}
+
 TEST(Billboard, DrawsThePapersOpacityFromAgeAlone) {
     Moment moment(300);
     const auto paper = prepared(moment, {{"mode", "paper"}});
@@ -199,9 +228,10 @@ TEST(Billboard, ReportsSortAndUploadAsStages) {
      public:
         void begin(Stage stage) override { begun.push_back(stage); }
         void end(Stage) override { ++ended; }
-        void beginDetail(std::string_view) override {}
+        void beginDetail(std::string_view name) override { details.emplace_back(name); }
         void endDetail(std::string_view) override {}
         std::vector<Stage> begun;
+        std::vector<std::string> details;
         std::size_t ended = 0;
     } listener;
     Moment moment(10);
@@ -210,6 +240,10 @@ TEST(Billboard, ReportsSortAndUploadAsStages) {
     method->update(moment.frame(clock));
     EXPECT_EQ(listener.begun, (std::vector<Stage>{Stage::sort, Stage::upload}));
     EXPECT_EQ(listener.ended, 2u);
+    const auto inTiles = prepared(moment, {{"raster", "tiles"}});
+    inTiles->update(moment.frame(clock));
+    (void)moment.picture([&](gpu::Layer& layer) { inTiles->draw(moment.frame(clock), layer); });
+    EXPECT_EQ(listener.details, (std::vector<std::string>{"bin", "blend"}));
 }
 
 }  // namespace

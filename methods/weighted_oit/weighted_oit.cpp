@@ -4,6 +4,7 @@
 #include <string>
 
 #include "draw_shaders.h"
+#include "methods/contract/errors.h"
 #include "methods/kit/draw/cost_facts.h"
 #include "methods/kit/gpu/draw_call.h"
 #include "weighted_oit_shaders.h"
@@ -56,15 +57,30 @@ std::map<std::string, std::string> definitionsOf(const Settings& settings) {
 
 }  // namespace
 
+WeightedOit::WeightedOit(const Settings& settings) : settings_(settings) {
+    if (settings.raster == Raster::tiles &&
+        (settings.accumulation != Accumulation::rgba32f || settings.revealage != Revealage::r32f))
+        throw InputError("parameter raster: got tiles with accumulation=" +
+                         std::string(accumulations.wordOf(settings.accumulation)) +
+                         " revealage=" + std::string(revealages.wordOf(settings.revealage)) +
+                         ", allowed: tiles with accumulation=rgba32f revealage=r32f, or hardware");
+}
+
 void WeightedOit::prepare(const scene::Scene&, const RunSetup&, gpu::Device& device) {
     namespace shaders = weighted_oit_shaders;
     const auto definitions = definitionsOf(settings_);
     const float nothingYet = isProduct(settings_.revealage) ? 1 : 0;
     quads_.emplace(device, settings_.reachDeviations);
+    if (settings_.raster == Raster::tiles) {
+        tiles_.emplace(device, "weighted sums",
+                       std::vector<gpu::ShaderFile>{shaders::weighted_puff_glsl, shaders::weighted_tiles_comp},
+                       definitions, settings_.reachDeviations);
+        return;
+    }
     sums_.emplace(device, "weighted sums",
                   std::vector<gpu::Format>{formatOf(settings_.accumulation), formatOf(settings_.revealage)},
                   std::vector<float>{0, nothingYet});
-    pass_ = draw::puffPass("weighted sums", {shaders::weighted_sum_frag}, definitions);
+    pass_ = draw::puffPass("weighted sums", {shaders::weighted_puff_glsl, shaders::weighted_sum_frag}, definitions);
     mean_.emplace(
         device, "weighted mean",
         std::initializer_list<gpu::ShaderFile>{draw_shaders::composite_vert, draw_shaders::error_function_glsl,
@@ -80,6 +96,12 @@ void WeightedOit::update(const Frame& frame) {
 
 void WeightedOit::draw(const Frame& frame, gpu::Layer& layer) {
     if (quads_->count() == 0) return;
+    if (tiles_) {
+        gpu::Program& program = tiles_->begin(*quads_, frame.view, layer, frame.clock);
+        program.set("nearMetres", static_cast<float>(frame.view.camera.nearMetres));
+        program.set("puffColour", frame.dust.colourOfAll);
+        return tiles_->run(layer, frame.clock);
+    }
     gpu::Program& program = quads_->begin(*pass_, frame.view);
     if (!quads_->isColoured()) program.set("puffColour", frame.dust.colourOfAll);
     sums_->begin(layer.width(), layer.height());
@@ -98,12 +120,14 @@ void WeightedOit::report(const Frame&, Facts& facts) const {
     const std::size_t bytes =
         gpu::bytesPerTexel(formatOf(settings_.accumulation)) + gpu::bytesPerTexel(formatOf(settings_.revealage));
     facts.set("bits_per_pixel", static_cast<std::int64_t>(8 * bytes));
-    facts.set("bytes_per_fragment", static_cast<std::int64_t>(2 * bytes));
+    const bool inInvocations = settings_.raster == Raster::tiles;
+    facts.set("bytes_per_fragment", static_cast<std::int64_t>(inInvocations ? 0 : 2 * bytes));
 }
 
 MemoryReport WeightedOit::memory() const {
     MemoryReport report;
     if (quads_) report.push_back({"puffs", 0, quads_->gpuBytes()});
+    if (tiles_) report.push_back({"lists of tiles", 0, tiles_->bytes()});
     if (sums_) report.push_back({"weighted sums", 0, sums_->gpuBytes()});
     return report;
 }
@@ -131,6 +155,10 @@ MethodInfo describe() {
                 "a volume cut at the eye and the scene, or a surface at the depth of the puff's centre")
         .real("reach", 3.5, 2, 6, "deviations",
               "half-side of a puff's quad in standard deviations; exp(-reach^2/2) of its depth is cut off")
+        .choice(
+            "raster", Raster::hardware, rasters,
+            "add up with the GPU's rasteriser, or tile by tile in a compute shader, for GPUs that hardly rasterise; "
+            "the same picture; tiles need accumulation=rgba32f and revealage=r32f")
         .choice("mode", "fixed", {"fixed", "paper"}, "paper: blended as published")
         .preset("mode", "paper", {{"accumulation", "rgba16f"}, {"revealage", "r8"}, {"puff", "surface"}});
     info.facts = {draw::bitsPerPixel(), draw::bytesPerFragment()};
@@ -140,7 +168,8 @@ MethodInfo describe() {
                                                       .accumulation = values.choice("accumulation", accumulations),
                                                       .revealage = values.choice("revealage", revealages),
                                                       .puff = values.choice("puff", puffs),
-                                                      .reachDeviations = values.real("reach")});
+                                                      .reachDeviations = values.real("reach"),
+                                                      .raster = values.choice("raster", rasters)});
     };
     return info;
 }

@@ -3,7 +3,8 @@
 //
 // With the defaults, a puff's alpha follows from its optical depth along the pixel's ray, limited by eye and scene in
 // closed form, sums are in single precision, and the cloud's alpha is 1 − exp(−Σ) instead of 1 − Π(1 − α), which is
-// equal. `mode=paper` blends as published: surfaces, half-precision sums, and the product in 8 bits.
+// equal. `mode=paper` blends as published: surfaces, half-precision sums, and the product in 8 bits. `raster=tiles`
+// draws the same layer without the GPU's rasteriser.
 //
 // Source: McGuireBavoil2013, Eq. 6 to 10. Departs: the far plane of Eq. 10 is at infinity; sums that overflow half
 // precision end at its largest number.
@@ -18,6 +19,7 @@
 #include "methods/contract/method.h"
 #include "methods/kit/draw/puff_quads.h"
 #include "methods/kit/draw/sum_targets.h"
+#include "methods/kit/draw/tile_puffs.h"
 #include "methods/kit/gpu/program.h"
 #include "methods/kit/gpu/vertex_array.h"
 
@@ -42,12 +44,20 @@ inline constexpr Choices<Revealage> revealages{
 enum class Puff { volume, surface };
 inline constexpr Choices<Puff> puffs{{"volume", Puff::volume}, {"surface", Puff::surface}};
 
+/// What adds the puffs up.
+enum class Raster {
+    hardware,  ///< the GPU's rasteriser and blending units
+    tiles,     ///< a compute shader, tile by tile
+};
+inline constexpr Choices<Raster> rasters{{"hardware", Raster::hardware}, {"tiles", Raster::tiles}};
+
 struct Settings {
     Weight weight = Weight::eq7;
     Accumulation accumulation = Accumulation::rgba32f;
     Revealage revealage = Revealage::r32f;
     Puff puff = Puff::volume;
     double reachDeviations = 3.5;
+    Raster raster = Raster::hardware;
 };
 
 inline constexpr double largestHalf = 65504;
@@ -68,7 +78,8 @@ struct Fragment {
 
 class WeightedOit final : public Method {
  public:
-    explicit WeightedOit(const Settings& settings) : settings_(settings) {}
+    /// Throws InputError for sums in other formats than single precision with `raster=tiles`.
+    explicit WeightedOit(const Settings& settings);
 
     void prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) override;
     void update(const Frame& frame) override;
@@ -81,6 +92,7 @@ class WeightedOit final : public Method {
  private:
     Settings settings_;
     std::optional<draw::PuffQuads> quads_;
+    std::optional<draw::TilePuffs> tiles_;  ///< if `raster` is tiles; then the next three are empty
     std::optional<draw::SumTargets> sums_;
     std::optional<draw::FragmentPass> pass_;
     std::optional<gpu::Program> mean_;

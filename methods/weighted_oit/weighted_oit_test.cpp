@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "methods/contract/errors.h"
 #include "methods/kit/maths/transmittance.h"
 #include "methods/kit/testing/test_moment.h"
 
@@ -336,6 +337,29 @@ TEST(WeightedOit, BlendsAsPublishedInModePaper) {
     EXPECT_EQ(paper.choice("revealage"), "r8");
     paper.set("revealage", "r16f");
     EXPECT_EQ(bits(paper), 80);
+}
+
+/// Around the eye, before and behind a wall. Quads of 6 standard deviations, so that nothing is seen at their edges.
+TEST(WeightedOit, DrawsTheSamePictureInTiles) {
+    for (const bool oneColour : {false, true}) {
+        Cloud cloud(300, oneColour);
+        cloud.setWall(9, 40);
+        for (const Settings& settings : {Settings{}, Settings{.weight = Weight::none, .puff = Puff::surface}}) {
+            Settings inTiles = settings;
+            inTiles.raster = Raster::tiles;
+            const pictures::Image hardware = cloud.drawn(settings), tiles = cloud.drawn(inTiles);
+            double alpha = 0;
+            for (std::size_t i = 0; i < tiles.pixels.size(); ++i) {
+                for (int c = 0; c < 4; ++c) ASSERT_NEAR(tiles.pixels[i][c], hardware.pixels[i][c], 1e-5) << i;
+                alpha += static_cast<double>(tiles.pixels[i].a);
+            }
+            EXPECT_GT(alpha, 1000);
+        }
+    }
+    Cloud nothing(0, true);
+    for (const glm::vec4& pixel : nothing.drawn({.raster = Raster::tiles}).pixels) ASSERT_EQ(pixel, glm::vec4(0));
+    EXPECT_THROW(WeightedOit({.accumulation = Accumulation::rgba16f, .raster = Raster::tiles}), InputError);
+    EXPECT_THROW(WeightedOit({.revealage = Revealage::r8, .raster = Raster::tiles}), InputError);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ Billboards::Billboards(gpu::Device& device, const BillboardStyle& style, const P
                              puffsAtOnce,
                              billboardDefinitions(style, pictures),
                              gpu::Primitives::triangles,
-                             {draw_shaders::error_function_glsl}}),
+                             {draw_shaders::error_function_glsl, draw_shaders::billboard_quad_glsl}}),
       style_(style),
       pictures_(pictures) {}
 

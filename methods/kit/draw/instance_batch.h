@@ -56,6 +56,9 @@ class DUSTBENCH_API InstanceBatch {
 
     /// Of gathered puffs, a bound.
     [[nodiscard]] std::size_t count() const { return count_; }
+    /// The number of gathered puffs, in word 0; null if it is `count`.
+    [[nodiscard]] const gpu::Buffer* countOnGpu() const { return gathered_ ? &drawn_ : nullptr; }
+    [[nodiscard]] const InstanceLayout& layoutOfAll() const { return layout_; }
     /// For Method::primitives.
     [[nodiscard]] std::int64_t primitives() const {
         return gathered_ ? Method::onePerPuff : static_cast<std::int64_t>(count_);
@@ -91,7 +94,6 @@ class DUSTBENCH_API InstanceBatch {
     void drawInstances(const gpu::Program& program, const gpu::DrawState& state);
     /// The same, blended into `layer` with the scene's depth test; sets `projection`.
     void drawWithinScene(gpu::Program& program, const scene::View& view, const gpu::Layer& layer);
-    [[nodiscard]] const InstanceLayout& layoutOfAll() const { return layout_; }
 
  private:
     gpu::Device& device_;

@@ -14,7 +14,8 @@ constexpr std::size_t quadsAtOnce = 64;
 
 FragmentPass puffPass(const char* name, std::vector<gpu::ShaderFile> files,
                       std::map<std::string, std::string> definitions) {
-    files.insert(files.begin(), {draw_shaders::error_function_glsl, draw_shaders::puff_ray_glsl});
+    files.insert(files.begin(),
+                 {draw_shaders::error_function_glsl, draw_shaders::puff_ray_glsl, draw_shaders::puff_quad_glsl});
     return {name, std::move(files), std::move(definitions)};
 }
 

@@ -27,22 +27,13 @@ void main() {
 
     // Subtract the eye first, so that coordinates near the eye keep their precision.
     vec3 place = mat3(worldToEye) * (vec3(values[base], values[base + 1], values[base + 2]) - eye);
-    float radius = values[base + 3], depth = opticalDepth(values[base + 4]), reach = 0.5 * radius * projection.w;
-    float distance = length(place);
+    float radius = values[base + 3], depth = opticalDepth(values[base + 4]);
     bool drawn = wanted < count && radius > 0.0 && depth > 0.0;
-    if (!drawn || (distance >= 2.0 * reach && place.z > reach)) {
-        gl_Position = vec4(0, 0, 0, 1);
-    } else if (distance < 2.0 * reach) {
-        gl_Position = vec4(corner, 0, 1);
-    } else {
-        // Perpendicular to the ray to the centre, and as wide there as the cone around the ball of radius `reach`.
-        vec3 sight = place / distance;
-        vec3 right = vec3(-sight.z, 0, sight.x) * inversesqrt(max(sight.x * sight.x + sight.z * sight.z, 1e-12));
-        vec3 up = cross(right, sight);
-        float side = reach * distance * inversesqrt(distance * distance - reach * reach);
-        vec3 position = place + side * (corner.x * right + corner.y * up);
-        gl_Position = vec4(position.xy * projection.xy, projection.z, -position.z);
-    }
+    PuffQuad quad = puffQuadOf(place, drawn ? 0.5 * radius * projection.w : 0.0);
+    vec3 position = place + quad.side * (corner.x * quad.right + corner.y * quad.up);
+    gl_Position = vec4(position.xy * projection.xy, projection.z, -position.z);
+    if (quad.side == 0.0) gl_Position = vec4(0, 0, 0, 1);
+    if (quad.side < 0.0) gl_Position = vec4(corner, 0, 1);
     centre = vec4(place, sqrt(2.0) / max(radius, 1e-20));
     puffIndex = min(wanted, count - 1);
     logDepth = log2(max(depth, 1e-30));

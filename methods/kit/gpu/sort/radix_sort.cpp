@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdlib>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -14,7 +15,7 @@ namespace {
 
 using namespace gpu_sort_shaders;
 
-constexpr int places = 4;
+constexpr int places = 4, bitsOfDigit = 8;
 constexpr std::uint32_t values = 256, groupThreads = 256, maximumKeysPerThread = 24;
 constexpr std::size_t wordBytes = sizeof(std::uint32_t);
 
@@ -69,13 +70,16 @@ bool RadixSort::canLookBack(const Device& device) {
     return !device.isSoftware() || (threads && (std::string_view(threads) == "1" || std::string_view(threads) == "0"));
 }
 
-void RadixSort::sort(Buffer& keys, Buffer& indices, const ElementCount& count) {
+void RadixSort::sort(Buffer& keys, Buffer& indices, const ElementCount& count, int keyBits) {
+    if (keyBits != 16 && keyBits != 32)
+        throw std::invalid_argument("bits of keys: got " + std::to_string(keyBits) + ", expected 16 or 32");
     if (plan_.capacity() == 0) return;
+    const int passes = keyBits / bitsOfDigit;  // even, so that the last one writes to the given buffers
     plan_.set(count);
     plan_.bind();
-    if (looksBack(settings_)) countAllDigits(keys);
+    if (looksBack(settings_)) countAllDigits(keys, passes);
     const std::array<const Buffer*, 2> keysOf{&keys, &spareKeys_}, indicesOf{&indices, &spareIndices_};
-    for (int place = 0; place < places; ++place) {
+    for (int place = 0; place < passes; ++place) {
         const auto from = static_cast<std::size_t>(place % 2), to = 1 - from;
         if (!looksBack(settings_)) countTiles(place, *keysOf[from]);
         keysOf[from]->bindStorage(1);
@@ -89,11 +93,12 @@ void RadixSort::sort(Buffer& keys, Buffer& indices, const ElementCount& count) {
     }
 }
 
-void RadixSort::countAllDigits(const Buffer& keys) {
+void RadixSort::countAllDigits(const Buffer& keys, int passes) {
     totals_.clear();
     keys.bindStorage(1);
     totals_.bindStorage(5);
     states_.bindStorage(6);
+    count_.set("passes", passes);
     plan_.runPerShare(count_);
 }
 

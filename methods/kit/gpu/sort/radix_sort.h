@@ -1,8 +1,8 @@
 // Stable radix sort of pairs of a 32-bit key and a 32-bit index on the GPU, by ascending key.
 //
-// Four passes over digits of 8 bits, the least significant first. Each pass counts the values of its digit and moves
-// every pair to its place. A place depends on the counts of all earlier tiles of pairs, which are found in one of two
-// ways, both with the same result.
+// Four passes over digits of 8 bits, the least significant first; two for keys of 16 bits. Each pass counts the values
+// of its digit and moves every pair to its place. A place depends on the counts of all earlier tiles of pairs, which
+// are found in one of two ways, both with the same result.
 //
 // Owns: memory for a second copy of the pairs, and for counts. Threads: the OpenGL thread's.
 // Source: AdinetsMerrill2022; MerrillGarland2016.
@@ -48,14 +48,15 @@ class DUSTBENCH_API RadixSort {
     /// sorts wrongly then. With one thread (LP_NUM_THREADS=1) its groups run one after the other and never wait.
     [[nodiscard]] static bool canLookBack(const Device& device);
 
-    /// Sorts the first `count` pairs in place. Both buffers have room for `capacity` elements.
-    void sort(Buffer& keys, Buffer& indices, const ElementCount& count);
+    /// Sorts the first `count` pairs in place. Both buffers have room for `capacity` elements. `keyBits`: 16 or 32;
+    /// with 16, keys must be below 2¹⁶, and two passes suffice.
+    void sort(Buffer& keys, Buffer& indices, const ElementCount& count, int keyBits = 32);
 
     [[nodiscard]] const RadixSortSettings& settings() const { return settings_; }
     [[nodiscard]] std::size_t bytes() const;
 
  private:
-    void countAllDigits(const Buffer& keys);
+    void countAllDigits(const Buffer& keys, int passes);
     void countTiles(int place, const Buffer& keys);
 
     RadixSortSettings settings_;

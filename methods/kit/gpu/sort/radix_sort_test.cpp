@@ -114,6 +114,25 @@ TEST(GpuRadixSort, EqualsTheStandardStableSortForManyKeys) {
     }
 }
 
+TEST(GpuRadixSort, SortsShortKeysInTwoPasses) {
+    constexpr std::uint32_t capacity = 50'000;
+    for (const RadixSortSettings& way : ways()) {
+        RadixSort sort(sortingDevice(), capacity, way);
+        for (const std::uint32_t count : {0u, 1u, 4'097u, capacity}) {
+            const Pairs pairs = numbered(randomKeys(count, 0xffff));
+            Buffer keys = bufferOf(pairs.keys, capacity), indices = bufferOf(pairs.indices, capacity);
+            sort.sort(keys, indices, count, 16);
+            const Pairs sorted{wordsOf(keys, count), wordsOf(indices, count)};
+            ASSERT_TRUE(sorted == plainlySorted(pairs.keys)) << nameOf(way) << ", " << count << " pairs";
+            // Long keys again, with the same memory.
+            const Words random = randomKeys(count);
+            ASSERT_TRUE(sortedBy(sort, numbered(random), capacity) == plainlySorted(random)) << nameOf(way);
+        }
+        Buffer none = bufferOf({}, capacity);
+        EXPECT_THROW(sort.sort(none, none, 1u, 24), std::invalid_argument);
+    }
+}
+
 /// Equal keys keep their order: their indices ascend.
 TEST(GpuRadixSort, IsStable) {
     constexpr std::size_t count = 50'000;
