@@ -16,6 +16,7 @@
 #include "methods/kit/particles/part_toml.h"
 #include "methods/kit/particles/particle_system.h"
 #include "methods/plugin_particles/mark_pass.h"
+#include "methods/plugin_particles/sunlight.h"
 #include "methods/plugin_particles/system_picture.h"
 
 namespace dustbench::plugin_particles {
@@ -38,6 +39,7 @@ class PluginParticles final : public Method {
     [[nodiscard]] std::optional<std::uint64_t> stateHash() const override;
     /// The lights of the systems with a part `glow`, in order.
     [[nodiscard]] std::vector<scene::PointLight> lights() const override { return lights_; }
+    [[nodiscard]] Puffs shadowing() const override { return sunlight_ ? sunlight_->casting() : Puffs{}; }
     [[nodiscard]] bool wantsPreroll() const override { return true; }
     /// Returns `systems.toml`: the current systems. Loading it gives the same parts.
     [[nodiscard]] std::vector<KeptFile> files() const override;
@@ -49,6 +51,7 @@ class PluginParticles final : public Method {
         std::int64_t fixedCount = 0;
         std::string shownAs{};  ///< the render part of `picture`
         std::unique_ptr<SystemPicture> picture{};
+        light::LitPuffs lit{};              ///< colours in sunlight
         std::unique_ptr<MarkPass> marks{};  ///< null: no part is drawn
     };
 
@@ -56,6 +59,8 @@ class PluginParticles final : public Method {
     void carryEvents();
     void makePicture(System& system);
     void findLights();
+    void shine();
+    [[nodiscard]] Puffs shown(const System& system, const Frame& frame, light::LitPuffs& lit) const;
     void uploadMarks(System& system);
 
     std::vector<particles::NamedParts> parts_;  ///< until `prepare`
@@ -67,6 +72,7 @@ class PluginParticles final : public Method {
     gpu::Device* device_ = nullptr;
     scene::SceneState now_;
     std::vector<scene::PointLight> lights_;
+    std::unique_ptr<Sunlight> sunlight_;  ///< null unless scene::Lights::onDust
 };
 
 /// Called by the registry.
