@@ -27,6 +27,12 @@ std::vector<std::string> systemNames() {
     return names;
 }
 
+std::vector<std::string> storageWords() {
+    std::vector<std::string> words = particles::storages.words();
+    words.insert(words.begin(), "file");
+    return words;
+}
+
 /// The first system uses the run's seed, so that `wheel_dust` is the shared dust; the others get different seeds.
 std::uint64_t seedOf(std::size_t system, std::uint64_t seed) {
     return seed ^ (system * 0x9e3779b97f4a7c15ULL);
@@ -65,6 +71,8 @@ std::vector<particles::NamedParts> systemsOf(const ParameterValues& values) {
     auto systems = particles::systemsFromFile(file);
     try {
         for (particles::NamedParts& system : systems) particles::scaleSizes(*system.parts, values.real("size_factor"));
+        if (const auto storage = particles::storages.find(values.choice("storage")))
+            for (particles::NamedParts& system : systems) system.parts->setStorage(*storage);
     } catch (const InputError& error) {
         throw InputError(std::string("parameter size_factor: ") + error.what());
     }
@@ -284,6 +292,9 @@ MethodInfo describe() {
     info.parameters.dataFile("system", "wheel_dust", "particles", ".toml", systemNames(),
                              "file with one or more particle systems to simulate and draw");
     info.parameters.real("size_factor", 1, 1e-3, 1e3, "", "factor on the sizes of all particles");
+    info.parameters.choice("storage", "file", storageWords(),
+                           "how systems keep their particles; array: in columns; list: in a linked list; pool: in a "
+                           "linked list that keeps the nodes of the dead; file: as the file says, or array");
     info.parameters.changes("at",
                             "changes to parts and their parameters during the run: 2.5s:velocity.speed=8, "
                             "1s:velocity.part=cone; with several systems: 2s:smoke.velocity.speed=8");

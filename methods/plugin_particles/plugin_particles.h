@@ -4,7 +4,8 @@
 // only by events (kit/particles/event_part.h). With the harness's `particles=N` they share N evenly. With `wheel_dust`
 // the state equals that of the shared dust, bit by bit. Parts and their parameters may change during a run
 // (kit/particles/part_change.h); with several systems, a change's name begins with the system's. Source: Thesis, 3
-// (design), 4.1 (rendering). Departs: structure of arrays instead of linked lists.
+// (design), 4.1 (rendering). Departs: a structure of arrays unless a system chooses linked lists
+// (kit/particles/linked_particles.h).
 #pragma once
 
 #include <memory>
