@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -118,6 +119,39 @@ TEST_F(ExportCommand, WritesTheSurfacesThatAMethodWearsWithTheirHeightsAndPartic
     EXPECT_LE(bounds[5], -1.9 + 1e-6);
     EXPECT_GE(bounds[4], -1.94 - 1e-6);
     EXPECT_EQ(stepsOf(out / "relief.pvd").size(), 2u);  // the particles: outside and within
+}
+
+TEST_F(ExportCommand, AMethodsOwnParticlesAreThoseOfTheSeries) {
+    const fs::path out = folder_ / "rocket";
+    const Called called = call(fmt::format(
+        "export --method plugin_particles --scene plain -P system=rocket -P preroll=0.5 --warmup 1 --frames 2 --format "
+        "vtp,vti --resolution 8 --out '{}'",
+        out.string()));
+    ASSERT_EQ(called.code, 0) << called.err;
+    for (const char* series : {"particles.pvd", "plugin_particles.pvd"}) {
+        const auto steps = stepsOf(out / series);
+        ASSERT_EQ(steps.size(), 1u) << series;
+        EXPECT_EQ(steps.begin()->first, "f000002_plugin_particles.vtp") << series;
+    }
+    EXPECT_EQ(stepsOf(out / "dust.pvd").begin()->first, "f000002.vtp");
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName((out / "f000002_plugin_particles.vtp").c_str());
+    reader->Update();
+    vtkPolyData& cloud = *reader->GetOutput();
+    vtkDataArray* const system = cloud.GetPointData()->GetArray("system");
+    ASSERT_NE(system, nullptr);
+    EXPECT_EQ(system->GetRange()[0], 1);
+    EXPECT_EQ(system->GetRange()[1], 2);
+    EXPECT_NE(cloud.GetPointData()->GetArray("colour"), nullptr) << "the systems have different colours";
+    vtkAbstractArray* const method = cloud.GetFieldData()->GetAbstractArray("method");
+    ASSERT_NE(method, nullptr);
+    EXPECT_EQ(method->GetVariantValue(0).ToString(), "plugin_particles");
+    vtkAbstractArray* const configuration = cloud.GetFieldData()->GetAbstractArray("configuration");
+    std::vector<std::string> lines;
+    for (vtkIdType i = 0; i < configuration->GetNumberOfValues(); ++i)
+        lines.push_back(configuration->GetVariantValue(i).ToString());
+    EXPECT_THAT(lines, IsSupersetOf({"scene=plain", "seed=1", "system=rocket", "light=none"}));
+    EXPECT_NEAR(gridMass(out / "f000002.vti") / particleMass(out / "f000002_plugin_particles.vtp"), 1, 0.01);
 }
 
 TEST_F(ExportCommand, WritesEveryFrameAndSeriesWithTheSimulationsTimes) {

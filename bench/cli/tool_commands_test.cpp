@@ -1,6 +1,12 @@
 // End-to-end tests of the commands that method folders provide.
 #include <gmock/gmock.h>
 
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkXMLImageDataReader.h>
+
 #include <algorithm>
 
 #include "bench/cli/called_program.h"
@@ -47,6 +53,44 @@ TEST_F(ToolCommands, ShapeIsEditedInTheOrderGivenAndRuns) {
     EXPECT_EQ(run.code, 0) << run.err;
 }
 
+TEST_F(ToolCommands, ShapeIsSavedAfterItHasMovedWithTheParticlesItHolds) {
+    if (std::ranges::find(tools(), "shape", &ToolInfo::id) == tools().end()) GTEST_SKIP() << "no such tool";
+    std::ofstream(folder_ / "block.toml") << "description = \"\"\nparticles = 432\n[grid]\ncells = [6, 6, 6]\n"
+                                             "edge_metres = 0.25\n[motion]\nfill_seconds = 0.5\n";
+    const std::string block = "shape '" + (folder_ / "block.toml").string() + "' --save '";
+    const auto held = [&](const std::string& name) {
+        vtkNew<vtkXMLImageDataReader> reader;
+        reader->SetFileName((folder_ / name).c_str());
+        reader->Update();
+        vtkDataArray* const density = reader->GetOutput()->GetCellData()->GetArray("density");
+        vtkDataArray* const most = reader->GetOutput()->GetCellData()->GetArray("maximum_density");
+        double sum = 0;
+        for (vtkIdType i = 0; i < density->GetNumberOfTuples(); ++i) {
+            EXPECT_LE(density->GetTuple1(i), most->GetTuple1(i));
+            sum += density->GetTuple1(i);
+        }
+        return sum;
+    };
+    const Called series = call(block + (folder_ / "a.vti").string() + "' --seconds 1 --every 0.25");
+    ASSERT_EQ(series.code, 0) << series.err;
+    const std::string index = contentOf(folder_ / "a.pvd");
+    double before = 0;
+    for (const char* name : {"a_000015.vti", "a_000030.vti", "a_000045.vti", "a_000060.vti"}) {
+        EXPECT_THAT(index, HasSubstr(name));
+        EXPECT_GE(held(name), before) << "it fills";
+        before = held(name);
+    }
+    EXPECT_GT(before, 350);
+    EXPECT_LE(before, 432);
+    EXPECT_LT(held("a_000015.vti"), before);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "a.vti"));
+    const Called last = call(block + (folder_ / "b.vti").string() + "' --seconds 1");
+    EXPECT_THAT(last.out, HasSubstr(fmt::format("{:.0f}", before)));
+    EXPECT_EQ(contentOf(folder_ / "b.vti"), contentOf(folder_ / "a_000060.vti"));
+    EXPECT_EQ(call(block + (folder_ / "c.vti").string() + "'").code, 0);
+    EXPECT_EQ(held("c.vti"), 0) << "it has not moved";
+}
+
 TEST_F(ToolCommands, SolversAreComparedWithOnesThatLeftTheirFlows) {
     if (std::ranges::find(tools(), "precision", &ToolInfo::id) == tools().end()) GTEST_SKIP() << "no such tool";
     const std::string folder = "'" + (folder_ / "flows").string() + "'";
@@ -88,6 +132,9 @@ TEST_F(ToolCommands, WrongUseIsOneLineAndExitCodeThree) {
         {"shape bal", "'ball'"},
         {"shape ball --pant x", "'--paint'"},
         {"shape ball --save a.toml --save b.toml", "once"},
+        {"shape ball --save a.toml --seconds 1", "--save FILE.vti"},
+        {"shape ball --save a.vti --every 1", "requires --seconds"},
+        {"shape ball --save a.vti --seconds 0", "0.0167..600"},
         {"shape ball --paint", "--paint"},
         {"shape ball --paint 'sphere=0,0,0,0.1 color=1,0,0'", "'colour'"}};
     for (const auto& [arguments, expected] : mistakes) {

@@ -23,8 +23,12 @@ void grow(std::optional<Box>& bounds, const Box& box) {
 }  // namespace
 
 void CollectedVolume::puffs(const Puffs& puffs) {
-    anyPuffs_ = true;
-    particles_ = puffs;
+    if (!particles_) particles_ = std::make_unique<CollectedParticles>();
+    CollectedParticles& particles = *particles_;
+    if (++particles.calls == 2) particles.systems.assign(particles.all.size(), 1);
+    if (particles.calls > 1) particles.systems.resize(particles.systems.size() + puffs.size(), particles.calls);
+    particles.all.append(puffs);
+    particles.source = puffs.serial.data();
     puffs_.reserve(puffs_.size() + puffs.size());
     for (std::size_t i = 0; i < puffs.size(); ++i) {
         const CollectedPuff puff{puffs.position(i), puffs.radius[i], puffs.opacity[i]};
@@ -37,6 +41,11 @@ void CollectedVolume::puffs(const Puffs& puffs) {
                     puffs.serial[i], puff.centre.x, puff.centre.y, puff.centre.z, puff.radiusMetres, puff.opacity));
         if (mass > 0) puffs_.push_back(puff);
     }
+}
+
+const CollectedParticles* CollectedVolume::particlesUnless(const Puffs& only) const {
+    const bool isOnly = particles_ && particles_->calls == 1 && particles_->source == only.serial.data();
+    return isOnly ? nullptr : particles_.get();
 }
 
 void CollectedVolume::octree(const OctreeVolume& volume) {

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/export/volume_settings.h"
 #include "methods/contract/volume.h"
+#include "methods/kit/particles/particle_store.h"
 
 namespace dustbench::bench {
 
@@ -51,6 +53,15 @@ struct CollectedGrid {
     }
 };
 
+/// Copies of all particles provided.
+struct CollectedParticles {
+    MemoryLedger ledger{};
+    particles::ParticleStore all{ledger};
+    std::vector<int> systems{};  ///< of each: the number of the call that provided it, from 1; empty if there was one
+    int calls = 0;
+    const void* source = nullptr;  ///< where the serials of the last call are
+};
+
 struct CollectedSurface {
     std::string name;
     int columns, rows;
@@ -73,14 +84,13 @@ class CollectedVolume final : public VolumeVisitor {
     void surface(const SurfaceVolume& volume) override;
 
     [[nodiscard]] const std::vector<CollectedPuff>& puffs() const { return puffs_; }
-    /// The last particles provided, as a view of their owner's storage, valid until its next step. Empty if there were
-    /// none.
-    [[nodiscard]] const std::optional<Puffs>& particles() const { return particles_; }
+    /// The particles provided; null if there were none, or only these ones.
+    [[nodiscard]] const CollectedParticles* particlesUnless(const Puffs& only) const;
     [[nodiscard]] const std::vector<CollectedOctree>& octrees() const { return octrees_; }
     /// Nothing was provided, not even an empty cloud.
-    [[nodiscard]] bool isNothing() const { return !anyPuffs_ && octrees_.empty() && grids_.empty(); }
+    [[nodiscard]] bool isNothing() const { return !particles_ && octrees_.empty() && grids_.empty(); }
     /// The cloud is exactly one octree, so it can be written as one.
-    [[nodiscard]] bool isOneOctree() const { return octrees_.size() == 1 && !anyPuffs_ && grids_.empty(); }
+    [[nodiscard]] bool isOneOctree() const { return octrees_.size() == 1 && !particles_ && grids_.empty(); }
     [[nodiscard]] const std::vector<CollectedGrid>& grids() const { return grids_; }
     /// Surfaces are not part of the cloud: `bounds` and `isNothing` ignore them.
     [[nodiscard]] const std::vector<CollectedSurface>& surfaces() const { return surfaces_; }
@@ -89,9 +99,8 @@ class CollectedVolume final : public VolumeVisitor {
     [[nodiscard]] std::optional<Box> bounds() const;
 
  private:
-    bool anyPuffs_ = false;
-    std::optional<Puffs> particles_;
-    std::vector<CollectedPuff> puffs_;  ///< those with mass
+    std::unique_ptr<CollectedParticles> particles_;  ///< null if none were provided, not even an empty cloud
+    std::vector<CollectedPuff> puffs_;               ///< those with mass
     std::vector<CollectedOctree> octrees_;
     std::vector<CollectedGrid> grids_;
     std::vector<CollectedSurface> surfaces_;

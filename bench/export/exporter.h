@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "bench/export/collected_volume.h"
 #include "bench/export/extinction_grid.h"
 #include "bench/export/series.h"
+#include "bench/export/vtk_file.h"
 #include "methods/contract/scene.h"
 #include "methods/contract/volume.h"
 
@@ -34,6 +36,9 @@ struct ExportedMoment {
     const scene::Scene& scene;
     const scene::SceneState& state;
     Puffs dust;
+    std::span<const std::string> configuration{};  ///< what determines the state, `name=value` each
+
+    [[nodiscard]] FileOrigin origin() const { return {state.timeSeconds, method, configuration}; }
 };
 
 /// The folder of an export, the series in it and its settings.

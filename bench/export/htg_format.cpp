@@ -118,7 +118,7 @@ vtkNew<vtkDoubleArray> ends(double minimum, double edge) {
 
 }  // namespace
 
-void writeHtg(const CollectedOctree& octree, double timeSeconds, const std::filesystem::path& file) {
+void writeHtg(const CollectedOctree& octree, const FileOrigin& origin, const std::filesystem::path& file) {
     vtkNew<vtkHyperTreeGrid> grid;
     grid->SetBranchFactor(2);
     grid->SetDimensions(2, 2, 2);
@@ -126,7 +126,7 @@ void writeHtg(const CollectedOctree& octree, double timeSeconds, const std::file
     grid->SetYCoordinates(ends(octree.originMetres.y, octree.edgeMetres));
     grid->SetZCoordinates(ends(octree.originMetres.z, octree.edgeMetres));
     const TreeBuilder builder(octree, *grid);
-    stampTime(*grid, timeSeconds);
+    stampOrigin(*grid, origin);
 
     WholeFile whole(file);
     vtkNew<vtkXMLHyperTreeGridWriter> writer;
@@ -150,7 +150,7 @@ Exporter describe() {
     };
     exporter.write = [](const ExportedMoment& moment, ExportFolder& folder) {
         const std::string name = fileOf(moment, "htg");
-        writeHtg(moment.volume.octrees().front(), moment.state.timeSeconds, folder.file(name));
+        writeHtg(moment.volume.octrees().front(), moment.origin(), folder.file(name));
         folder.addTo("octree.pvd", Series::Kind::pvd, name, moment);
     };
     return exporter;

@@ -12,11 +12,12 @@
 #include <filesystem>
 
 #include "bench/export/collected_volume.h"
+#include "bench/export/vtk_file.h"
 
 namespace dustbench::bench {
 
 /// Writes the whole file or none. Throws InputError if it cannot be written, std::logic_error if the voxels are not in
 /// pre-order.
-void writeHtg(const CollectedOctree& octree, double timeSeconds, const std::filesystem::path& file);
+void writeHtg(const CollectedOctree& octree, const FileOrigin& origin, const std::filesystem::path& file);
 
 }  // namespace dustbench::bench

@@ -46,7 +46,7 @@ vtkNew<vtkCellArray> quadrilaterals(const CollectedSurface& surface) {
 
 }  // namespace
 
-void writeSurface(const CollectedSurface& surface, double timeSeconds, const std::filesystem::path& file) {
+void writeSurface(const CollectedSurface& surface, const FileOrigin& origin, const std::filesystem::path& file) {
     vtkNew<vtkPolyData> mesh;
     vtkNew<vtkPoints> points;
     points->SetData(arrayOf("position", surface.position));
@@ -60,7 +60,7 @@ void writeSurface(const CollectedSurface& surface, double timeSeconds, const std
     add(*arrayOf("height", 1, surface.height), "1");
     for (const CollectedField& field : surface.fields)
         add(*arrayOf(field.name, field.components, field.values), field.unit);
-    stampTime(*mesh, timeSeconds);
+    stampOrigin(*mesh, origin);
 
     WholeFile whole(file);
     vtkNew<vtkXMLPolyDataWriter> writer;

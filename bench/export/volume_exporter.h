@@ -2,11 +2,11 @@
 //
 // In the folder: `f000120.vti .htg .vtp .vdb .vtm` of frame 120, `extinction.pvd extinction.vti.series octree.pvd
 // particles.pvd density.vdb.series scene.pvd` over the frames; `f000120_ID.vtp ID.pvd` of a method's own particles,
-// `f000120_ID.vti .vdb ID_grid.pvd ID_grid.vdb.series` of its own grid; `f000120_ID_NAME.vtp ID_NAME.pvd` and
-// `f000120_ID_NAME_heights.exr ID_NAME_heights.exr.series` of each surface that it changes, with `.vtp`. The scene is
-// written unless every format does without it (exporter.h). ParaView takes origin, spacing and size of
-// `extinction.vti.series` from its first file, and misplaces the others if theirs differ; `extinction.pvd` is always
-// right.
+// which are then those of particles.pvd, and dust.pvd has the shared dust; `f000120_ID.vti .vdb ID_grid.pvd
+// ID_grid.vdb.series` of its own grid; `f000120_ID_NAME.vtp ID_NAME.pvd` and `f000120_ID_NAME_heights.exr
+// ID_NAME_heights.exr.series` of each surface that it changes, with `.vtp`. The scene is written unless every format
+// does without it (exporter.h). ParaView takes origin, spacing and size of `extinction.vti.series` from its first file,
+// and misplaces the others if theirs differ; `extinction.pvd` is always right.
 //
 // Owns: a lock on the folder, so that two programs never write to the same one. Threads: one at a time; grids use the
 // current oneTBB arena.

@@ -30,7 +30,7 @@ void writeImage(vtkImageData& image, const std::filesystem::path& file) {
 
 }  // namespace
 
-void writeVti(const ExtinctionGrid& grid, double timeSeconds, const std::filesystem::path& file) {
+void writeVti(const ExtinctionGrid& grid, const FileOrigin& origin, const std::filesystem::path& file) {
     const GridPlan& plan = grid.plan;
     vtkNew<vtkFloatArray> extinction;
     extinction->SetName("extinction");
@@ -41,12 +41,12 @@ void writeVti(const ExtinctionGrid& grid, double timeSeconds, const std::filesys
     setPlace(*image, plan.origin, plan.spacingMetres, {plan.cells[0], plan.cells[1], plan.cells[2]});
     image->GetCellData()->SetScalars(extinction);
     addUnit(*image, "extinction", "1/m");
-    stampTime(*image, timeSeconds);
+    stampOrigin(*image, origin);
 
     writeImage(*image, file);
 }
 
-void writeGridVti(const CollectedGrid& grid, double timeSeconds, const std::filesystem::path& file) {
+void writeGridVti(const CollectedGrid& grid, const FileOrigin& origin, const std::filesystem::path& file) {
     vtkNew<vtkImageData> image;
     setPlace(*image, grid.originMetres, grid.spacingMetres, grid.cells);
     for (const CollectedField& field : grid.fields) {
@@ -59,7 +59,7 @@ void writeGridVti(const CollectedGrid& grid, double timeSeconds, const std::file
         addUnit(*image, field.name, field.unit);
     }
     if (!grid.fields.empty()) image->GetCellData()->SetActiveScalars(grid.fields.front().name.c_str());
-    stampTime(*image, timeSeconds);
+    stampOrigin(*image, origin);
     writeImage(*image, file);
 }
 
@@ -75,7 +75,7 @@ Exporter describe() {
                       .place = 1};
     exporter.writeGrid = [](const ExtinctionGrid& grid, const ExportedMoment& moment, ExportFolder& folder) {
         const std::string name = fileOf(moment, "vti");
-        writeVti(grid, moment.state.timeSeconds, folder.file(name));
+        writeVti(grid, moment.origin(), folder.file(name));
         folder.addTo("extinction.pvd", Series::Kind::pvd, name, moment);
         folder.addTo("extinction.vti.series", Series::Kind::json, name, moment);
     };
@@ -83,7 +83,7 @@ Exporter describe() {
     exporter.write = [](const ExportedMoment& moment, ExportFolder& folder) {
         if (moment.volume.grids().empty()) return;
         const std::string name = ownFileOf(moment, "vti");
-        writeGridVti(moment.volume.grids().front(), moment.state.timeSeconds, folder.file(name));
+        writeGridVti(moment.volume.grids().front(), moment.origin(), folder.file(name));
         folder.addTo(fmt::format("{}_grid.pvd", moment.method), Series::Kind::pvd, name, moment);
     };
     return exporter;

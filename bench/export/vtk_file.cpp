@@ -15,9 +15,21 @@
 #include <string>
 
 #include "bench/export/whole_file.h"
+#include "bench/measure/provenance.h"
 #include "methods/kit/files/machine_error.h"
 
 namespace dustbench::bench {
+
+namespace {
+
+void addTexts(vtkDataObject& data, const char* name, std::span<const std::string> texts) {
+    vtkNew<vtkStringArray> array;
+    array->SetName(name);
+    for (const std::string& text : texts) array->InsertNextValue(text);
+    data.GetFieldData()->AddArray(array);
+}
+
+}  // namespace
 
 void writeVtk(vtkXMLWriter& writer, vtkDataObject& data, const std::filesystem::path& file, Numbers numbers) {
     std::string complaint;
@@ -47,10 +59,7 @@ void writeVtk(vtkXMLWriter& writer, vtkDataObject& data, const std::filesystem::
 }
 
 void addUnit(vtkDataObject& data, const std::string& array, const std::string& unit) {
-    vtkNew<vtkStringArray> text;
-    text->SetName((array + "_unit").c_str());
-    text->InsertNextValue(unit);
-    data.GetFieldData()->AddArray(text);
+    addTexts(data, (array + "_unit").c_str(), {&unit, 1});
 }
 
 void stampTime(vtkDataObject& data, double timeSeconds) {
@@ -58,6 +67,15 @@ void stampTime(vtkDataObject& data, double timeSeconds) {
     time->SetName("TimeValue");
     time->InsertNextValue(timeSeconds);
     data.GetFieldData()->AddArray(time);
+}
+
+void stampOrigin(vtkDataObject& data, const FileOrigin& origin) {
+    stampTime(data, origin.timeSeconds);
+    if (origin.method.empty()) return;
+    const std::string method(origin.method), version = buildFacts().version;
+    addTexts(data, "method", {&method, 1});
+    addTexts(data, "configuration", origin.configuration);
+    addTexts(data, "dustbench_version", {&version, 1});
 }
 
 }  // namespace dustbench::bench

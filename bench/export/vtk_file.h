@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 
 class vtkDataObject;  // NOLINT(cppcoreguidelines-virtual-class-destructor): VTK's
 class vtkXMLWriter;   // NOLINT(cppcoreguidelines-virtual-class-destructor): VTK's
@@ -20,7 +22,21 @@ void writeVtk(vtkXMLWriter& writer, vtkDataObject& data, const std::filesystem::
 /// Stores the unit of an array as field data `<array>_unit`, a text; `1` is a number without a unit.
 void addUnit(vtkDataObject& data, const std::string& array, const std::string& unit);
 
+/// What a file shows.
+struct FileOrigin {
+    FileOrigin(double seconds, std::string_view id = {},  // NOLINT(google-explicit-constructor): a time may be all
+               std::span<const std::string> settings = {})
+        : timeSeconds(seconds), method(id), configuration(settings) {}
+
+    double timeSeconds;
+    std::string_view method;                     ///< its id; may be empty
+    std::span<const std::string> configuration;  ///< `name=value` each
+};
+
 /// Stores the simulation time of a single file where ParaView and PyVista look for it: field data `TimeValue`.
 void stampTime(vtkDataObject& data, double timeSeconds);
+/// Stores also the texts `method`, `configuration` (one value per setting) and `dustbench_version` if there is a
+/// method.
+void stampOrigin(vtkDataObject& data, const FileOrigin& origin);
 
 }  // namespace dustbench::bench

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -48,7 +49,7 @@ void writeSurfaces(const ExportedMoment& moment, ExportFolder& folder) {
         std::string part = fmt::format("{}_{}", moment.method, fileWord(surface.name));
         while (!parts.insert(part).second) part += '_';  // names that differ only in replaced characters
         const std::string mesh = fmt::format("f{:06}_{}.vtp", moment.frame, part);
-        writeSurface(surface, moment.state.timeSeconds, folder.file(mesh));
+        writeSurface(surface, moment.origin(), folder.file(mesh));
         folder.addTo(part + ".pvd", Series::Kind::pvd, mesh, moment);
         const std::string heights = fmt::format("f{:06}_{}_heights.exr", moment.frame, part);
         writeHeights(surface, folder.file(heights));
@@ -58,7 +59,8 @@ void writeSurfaces(const ExportedMoment& moment, ExportFolder& folder) {
 
 }  // namespace
 
-void writeVtp(const Puffs& dust, double timeSeconds, const std::filesystem::path& file) {
+void writeVtp(const Puffs& dust, const FileOrigin& origin, const std::filesystem::path& file,
+              std::span<const int> systems) {
     const auto count = static_cast<vtkIdType>(dust.size());
     vtkNew<vtkPolyData> cloud;
     vtkNew<vtkPoints> points;
@@ -91,7 +93,14 @@ void writeVtp(const Puffs& dust, double timeSeconds, const std::filesystem::path
     addColumn("opacity", "1", dust.opacity);
     add("velocity", "m/s", *interleaved(dust.velocityX, dust.velocityY, dust.velocityZ));
     if (!dust.uniformColour) add("colour", "linear RGB", *interleaved(dust.red, dust.green, dust.blue));
-    stampTime(*cloud, timeSeconds);
+    if (!systems.empty()) {
+        vtkNew<vtkIntArray> numbers;
+        numbers->SetName("system");
+        numbers->SetArray(const_cast<int*>(systems.data()), count, 1);
+        cloud->GetPointData()->AddArray(numbers);
+        addUnit(*cloud, "system", "1");
+    }
+    stampOrigin(*cloud, origin);
 
     WholeFile whole(file);
     vtkNew<vtkXMLPolyDataWriter> writer;
@@ -106,18 +115,23 @@ Exporter describe() {
         .id = "vtp",
         .extension = "vtp",
         .kind = "particles",
-        .contents = "the dust particles; with `relief` also the worn surfaces, and their heights as `.exr`",
+        .contents =
+            "the particles that the method shows; with `relief` also the worn surfaces, and their heights as "
+            "`.exr`",
         .programs = "ParaView, Blender (script below)",
         .place = 3};
     exporter.write = [](const ExportedMoment& moment, ExportFolder& folder) {
-        const double time = moment.state.timeSeconds;
-        const std::string name = fileOf(moment, "vtp");
-        writeVtp(moment.dust, time, folder.file(name));
-        folder.addTo("particles.pvd", Series::Kind::pvd, name, moment);
-        if (const auto& own = moment.volume.particles(); own && own->serial.data() != moment.dust.serial.data()) {
-            const std::string ownName = ownFileOf(moment, "vtp");
-            writeVtp(*own, time, folder.file(ownName));
-            folder.addTo(fmt::format("{}.pvd", moment.method), Series::Kind::pvd, ownName, moment);
+        const CollectedParticles* const own = moment.volume.particlesUnless(moment.dust);
+        if (!own || !moment.dust.empty()) {
+            const std::string name = fileOf(moment, "vtp");
+            writeVtp(moment.dust, moment.origin(), folder.file(name));
+            folder.addTo(own ? "dust.pvd" : "particles.pvd", Series::Kind::pvd, name, moment);
+        }
+        if (own) {
+            const std::string name = ownFileOf(moment, "vtp");
+            writeVtp(own->all, moment.origin(), folder.file(name), own->systems);
+            for (const std::string& series : {std::string("particles.pvd"), fmt::format("{}.pvd", moment.method)})
+                folder.addTo(series, Series::Kind::pvd, name, moment);
         }
         writeSurfaces(moment, folder);
     };

@@ -136,6 +136,21 @@ std::string canonicalKey(const RunSpec& spec) {
     return key;
 }
 
+std::vector<std::string> configurationOf(const RunSpec& spec) {
+    std::vector<std::string> lines{"scene=" + spec.scene};
+    const auto addIfAny = [&lines](const char* name, const std::string& text) {
+        if (!text.empty()) lines.push_back(fmt::format("{}={}", name, text));
+    };
+    addIfAny("drive", spec.drive);
+    addIfAny("camera_path", spec.cameraPath);
+    addIfAny("dust", spec.dust);
+    addIfAny("dust_columns", spec.dustColumns);
+    lines.push_back(fmt::format("seed={}", spec.seed));
+    lines.push_back(fmt::format("warmup={}", spec.warmup));
+    for (const auto& [name, text] : spec.parameters) lines.push_back(fmt::format("{}={}", name, text));
+    return lines;
+}
+
 std::string runId(const RunSpec& spec) {
     const std::string drive = spec.drive.empty() ? "" : fmt::format("-{}", plainName(spec.drive));
     return fmt::format("{}-{}{}-r{}-{}", spec.method, plainName(spec.scene), drive, spec.repetition,

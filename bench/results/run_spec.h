@@ -84,6 +84,9 @@ struct ResolvedParameters {
 /// Everything that distinguishes runs, one `name=value` per line in a fixed order.
 [[nodiscard]] std::string canonicalKey(const RunSpec& spec);
 
+/// What determines the state at a frame, one `name=value` each: the world and all parameters, not how it is measured.
+[[nodiscard]] std::vector<std::string> configurationOf(const RunSpec& spec);
+
 /// `billboard-plain-r1-0f3a9b5c2d1e`: a readable prefix and the first 12 digits of the key's SHA-256.
 [[nodiscard]] std::string runId(const RunSpec& spec);
 

@@ -50,11 +50,12 @@ ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const Run
 
     ExportResult result;
     const FrameRange& frames = spec.volumes->frames;
+    const std::vector<std::string> configuration = configurationOf(spec);
     const auto write = [&](std::int64_t index) {
         if (!frames.contains(index)) return;
         CollectedVolume volume;
         runner.volume(volume);
-        exporter.write({index, spec.method, volume, world.scene(), world.state(), world.dust()});
+        exporter.write({index, spec.method, volume, world.scene(), world.state(), world.dust(), configuration});
         record.moments.push_back({index, world.state().timeSeconds, fmt::format("{:016x}", world.stateHash())});
     };
     result.aborted =

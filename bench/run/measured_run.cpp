@@ -46,7 +46,7 @@ void addMemory(RunRecord& record, const std::string& owner, const MemoryReport& 
 class RunVolumes {
  public:
     RunVolumes(const RunSpec& spec, const fs::path& folder, const World& world, std::vector<std::string>& warnings)
-        : spec_(spec), world_(world), warnings_(warnings) {
+        : spec_(spec), configuration_(configurationOf(spec)), world_(world), warnings_(warnings) {
         if (spec.volumes) exporter_.emplace(*spec.volumes, folder / "volumes");
     }
 
@@ -59,7 +59,7 @@ class RunVolumes {
         CollectedVolume volume;
         runner.volume(volume);
         if (index == exporter_->settings().frames.first) leaveOutImpossible(volume);
-        exporter_->write({index, spec_.method, volume, world_.scene(), world_.state(), world_.dust()});
+        exporter_->write({index, spec_.method, volume, world_.scene(), world_.state(), world_.dust(), configuration_});
     }
     /// Columns of summary.csv; empty if no volume was requested.
     [[nodiscard]] std::string firstSeries() const {
@@ -83,6 +83,7 @@ class RunVolumes {
     }
 
     const RunSpec& spec_;
+    std::vector<std::string> configuration_;
     const World& world_;
     std::vector<std::string>& warnings_;
     std::optional<VolumeExporter> exporter_;

@@ -88,7 +88,7 @@ void MethodHost::draw(const Frame& frame) {
     const gpu::LedgerScope booked(device_, ledger_);
     {
         const auto timing = frame.clock.measure(Stage::scene);
-        scene_->draw(frame.state, frame.view, method_->lights(), dustThrowsShadow_ ? frame.dust : Puffs{});
+        scene_->draw(frame.state, frame.view, method_->lights(), dustThrowsShadow_ ? frame.dust : method_->shadowing());
     }
     const auto timing = frame.clock.measure(Stage::draw);
     {

@@ -14,9 +14,11 @@
 #include "bench/scene/gpu_dust/step_values.h"
 #include "bench/scene/scene_file.h"
 #include "bench/scene/vehicle_dynamics.h"
+#include "methods/contract/choices.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/light/lit_puffs.h"
 #include "methods/kit/particles/part_change.h"
 #include "methods/kit/particles/particle_system.h"
 #include "methods/kit/particles/state_hash.h"
@@ -27,6 +29,13 @@ namespace {
 using scene::SceneState;
 using scene::VehicleParameters;
 using scene::VehicleState;
+
+/// The light on the dust.
+enum class DustLight {
+    none,  ///< none: its own colours everywhere
+    sun,   ///< sun and sky: scene::dustLight
+};
+constexpr Choices<DustLight> dustLights{{"none", DustLight::none}, {"sun", DustLight::sun}};
 
 Drive readDrive(const std::filesystem::path& file, const std::string& id, const VehicleParameters& vehicle,
                 double speed) {
@@ -148,7 +157,7 @@ struct World::State {
     std::unique_ptr<ShownDust> given{};  ///< replaces `dust`
     std::unique_ptr<GpuDust> gpuDust{};  ///< replaces `dust`, with its parts
     GpuPuffs gpuPuffs{};                 ///< of `gpuDust`
-    LitDust litDust{};
+    light::LitPuffs litDust{};
     std::optional<Puffs> lit{};  ///< for this step and camera, once requested
 
     [[nodiscard]] const particles::ParticleStore& store() const {
@@ -223,9 +232,10 @@ const SceneState& World::state() const {
 Puffs World::dust() const {
     State& s = *state_;
     if (!s.file.scene.lights.onDust) return s.unlit();
-    if (!s.lit)
-        s.lit =
-            s.litDust.light(s.unlit(), s.file.scene, s.eyeCamera().eye, 1.0 / static_cast<double>(s.particlesPerPuff));
+    if (!s.lit) {
+        const auto depths = light::sunDepths(s.unlit(), s.file.scene, 1.0 / static_cast<double>(s.particlesPerPuff));
+        s.lit = s.litDust.light(s.unlit(), depths, s.file.scene, s.eyeCamera().eye);
+    }
     return *s.lit;
 }
 Puffs World::unlitDust() const {

@@ -14,7 +14,6 @@
 #include "bench/scene/cameras.h"
 #include "bench/scene/control_source.h"
 #include "bench/scene/given_dust.h"
-#include "bench/scene/lit_dust.h"
 #include "bench/scene/time_step.h"
 #include "methods/contract/memory_report.h"
 #include "methods/contract/method.h"

@@ -27,6 +27,16 @@ bool isLight(const SplitSettings& settings) {
     return settings.channel == Channel::picture && settings.shown != Shown::difference && settings.shown != Shown::flip;
 }
 
+/// What determines the half's state.
+std::vector<std::string> configurationShown(ViewState state) {
+    const std::string drive = state.drive;
+    const bool byKeys = drive == keyboardDrive;  // no run can repeat that
+    if (byKeys) state.drive.clear();
+    std::vector<std::string> lines = configurationOf(runOf(state, Half::a));
+    if (byKeys) lines.push_back("drive=" + drive);
+    return lines;
+}
+
 }  // namespace
 
 std::string Viewer::line(Half half) const {
@@ -83,7 +93,9 @@ void Viewer::saveVolume() {
     std::filesystem::create_directories(folder.parent_path());
     VolumeExporter exporter(settings, folder);
     const World& world = session_.world();
-    exporter.write({session_.frame(), state.a.method, volume, world.scene(), world.state(), world.dust()});
+    const std::vector<std::string> configuration = configurationShown(state);
+    exporter.write(
+        {session_.frame(), state.a.method, volume, world.scene(), world.state(), world.dust(), configuration});
     message_ = fmt::format("saved: {} ({})", folder.string(), formatsText(settings.formats));
 }
 

@@ -80,6 +80,9 @@ class DUSTBENCH_API Method {
     [[nodiscard]] virtual std::int64_t primitives() const { return 0; }
     /// Lights that the state after `update` casts on the opaque scene, such as a fire's. At most maximumPointLights.
     [[nodiscard]] virtual std::vector<scene::PointLight> lights() const { return {}; }
+    /// With scene::Lights::onDust: the puffs of the method's own simulation, whose shadow falls on the opaque scene;
+    /// valid until the next `update`. Ignored for methods without a `stateHash`, which show the shared dust.
+    [[nodiscard]] virtual Puffs shadowing() const { return {}; }
     /// Hash of the method's own simulation; empty if it only shows the shared dust.
     [[nodiscard]] virtual std::optional<std::uint64_t> stateHash() const { return std::nullopt; }
     /// Files to save next to the run's run.json. Called once, after the last frame.

@@ -27,6 +27,12 @@ std::vector<std::string> systemNames() {
     return names;
 }
 
+std::vector<std::string> storageWords() {
+    std::vector<std::string> words = particles::storages.words();
+    words.insert(words.begin(), "file");
+    return words;
+}
+
 /// The first system uses the run's seed, so that `wheel_dust` is the shared dust; the others get different seeds.
 std::uint64_t seedOf(std::size_t system, std::uint64_t seed) {
     return seed ^ (system * 0x9e3779b97f4a7c15ULL);
@@ -65,6 +71,8 @@ std::vector<particles::NamedParts> systemsOf(const ParameterValues& values) {
     auto systems = particles::systemsFromFile(file);
     try {
         for (particles::NamedParts& system : systems) particles::scaleSizes(*system.parts, values.real("size_factor"));
+        if (const auto storage = particles::storages.find(values.choice("storage")))
+            for (particles::NamedParts& system : systems) system.parts->setStorage(*storage);
     } catch (const InputError& error) {
         throw InputError(std::string("parameter size_factor: ") + error.what());
     }
@@ -114,6 +122,7 @@ void PluginParticles::prepare(const scene::Scene& scene, const RunSetup& setup, 
                             particles::ParticleSystem(std::move(parts_[i].parts), seedOf(i, setup.seed)),
                             shareOf(i, count, setup.particles)});
     parts_.clear();
+    if (scene.lights.onDust) sunlight_ = std::make_unique<Sunlight>(scene);
     for (System& system : systems_) makePicture(system);
 }
 
@@ -168,6 +177,21 @@ void PluginParticles::findLights() {
         }
 }
 
+void PluginParticles::shine() {
+    if (!sunlight_) return;
+    std::vector<Puffs> casting;
+    for (const System& system : systems_)
+        if (castsShadow(system.picture->look())) casting.push_back(system.particles.store());
+    sunlight_->shine(casting);
+}
+
+/// The particles of a system in the colours that they show.
+Puffs PluginParticles::shown(const System& system, const Frame& frame, light::LitPuffs& lit) const {
+    const Puffs puffs = system.particles.store();
+    if (!sunlight_ || !scattersLight(system.picture->look())) return puffs;
+    return sunlight_->on(puffs, frame.view.camera.eye, lit);
+}
+
 void PluginParticles::uploadMarks(System& system) {
     std::vector<particles::Mark> marks;
     for (const particles::Part* part : system.particles.parts().all())
@@ -180,6 +204,7 @@ void PluginParticles::uploadMarks(System& system) {
 void PluginParticles::update(const Frame& frame) {
     applyChanges(frame);
     carryEvents();
+    std::vector<Puffs> puffs;
     {
         const auto timing = frame.clock.measure(Stage::simulate);
         for (System& system : systems_)
@@ -190,12 +215,13 @@ void PluginParticles::update(const Frame& frame) {
                                      .view = &frame.view});
         now_ = frame.state;
         findLights();
+        shine();
+        for (System& system : systems_) puffs.push_back(shown(system, frame, system.lit));
     }
     for (System& system : systems_) uploadMarks(system);
-    for (System& system : systems_)
-        system.picture->upload(
-            {system.particles.store(), glm::vec3(frame.view.camera.eye), static_cast<float>(frame.stepSeconds)},
-            frame.clock);
+    for (std::size_t i = 0; i < systems_.size(); ++i)
+        systems_[i].picture->upload({puffs[i], glm::vec3(frame.view.camera.eye), static_cast<float>(frame.stepSeconds)},
+                                    frame.clock);
 }
 
 void PluginParticles::draw(const Frame& frame, gpu::Layer& layer) {
@@ -204,8 +230,11 @@ void PluginParticles::draw(const Frame& frame, gpu::Layer& layer) {
     for (System& system : systems_) system.picture->draw(frame.view, layer);
 }
 
-void PluginParticles::volume(const Frame&, VolumeVisitor& visitor) const {
-    for (const System& system : systems_) visitor.puffs(system.particles.store());
+void PluginParticles::volume(const Frame& frame, VolumeVisitor& visitor) const {
+    for (const System& system : systems_) {
+        light::LitPuffs lit;
+        visitor.puffs(shown(system, frame, lit));
+    }
 }
 
 void PluginParticles::report(const Frame&, Facts& facts) const {
@@ -227,6 +256,11 @@ MemoryReport PluginParticles::memory() const {
         for (const MemoryReport& part : {system.particles.memory(), system.picture->memory()})
             for (const MemoryUse& use : part)
                 report.push_back({system.name + ": " + use.structure, use.cpuBytes, use.gpuBytes});
+    if (sunlight_) {
+        std::size_t bytes = sunlight_->bytes();
+        for (const System& system : systems_) bytes += system.lit.bytes();
+        report.push_back({"sunlight", bytes, 0});
+    }
     return report;
 }
 
@@ -258,6 +292,9 @@ MethodInfo describe() {
     info.parameters.dataFile("system", "wheel_dust", "particles", ".toml", systemNames(),
                              "file with one or more particle systems to simulate and draw");
     info.parameters.real("size_factor", 1, 1e-3, 1e3, "", "factor on the sizes of all particles");
+    info.parameters.choice("storage", "file", storageWords(),
+                           "how systems keep their particles; array: in columns; list: in a linked list; pool: in a "
+                           "linked list that keeps the nodes of the dead; file: as the file says, or array");
     info.parameters.changes("at",
                             "changes to parts and their parameters during the run: 2.5s:velocity.speed=8, "
                             "1s:velocity.part=cone; with several systems: 2s:smoke.velocity.speed=8");
@@ -274,6 +311,7 @@ MethodInfo describe() {
                           "divided by its square root; empty if no number was requested",
                           {-5, 5}});
     info.facts.push_back({"systems", "systems", FactOver::lastFrame, "particle systems in the file"});
+    info.takesLights = true;
     info.takesGpuDust = [](const ParameterValues&) { return true; };  // it does not show the shared dust
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<PluginParticles>(systemsOf(values), values.changes("at"));

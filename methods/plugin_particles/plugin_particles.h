@@ -4,7 +4,8 @@
 // only by events (kit/particles/event_part.h). With the harness's `particles=N` they share N evenly. With `wheel_dust`
 // the state equals that of the shared dust, bit by bit. Parts and their parameters may change during a run
 // (kit/particles/part_change.h); with several systems, a change's name begins with the system's. Source: Thesis, 3
-// (design), 4.1 (rendering). Departs: structure of arrays instead of linked lists.
+// (design), 4.1 (rendering). Departs: a structure of arrays unless a system chooses linked lists
+// (kit/particles/linked_particles.h).
 #pragma once
 
 #include <memory>
@@ -16,6 +17,7 @@
 #include "methods/kit/particles/part_toml.h"
 #include "methods/kit/particles/particle_system.h"
 #include "methods/plugin_particles/mark_pass.h"
+#include "methods/plugin_particles/sunlight.h"
 #include "methods/plugin_particles/system_picture.h"
 
 namespace dustbench::plugin_particles {
@@ -38,6 +40,7 @@ class PluginParticles final : public Method {
     [[nodiscard]] std::optional<std::uint64_t> stateHash() const override;
     /// The lights of the systems with a part `glow`, in order.
     [[nodiscard]] std::vector<scene::PointLight> lights() const override { return lights_; }
+    [[nodiscard]] Puffs shadowing() const override { return sunlight_ ? sunlight_->casting() : Puffs{}; }
     [[nodiscard]] bool wantsPreroll() const override { return true; }
     /// Returns `systems.toml`: the current systems. Loading it gives the same parts.
     [[nodiscard]] std::vector<KeptFile> files() const override;
@@ -49,6 +52,7 @@ class PluginParticles final : public Method {
         std::int64_t fixedCount = 0;
         std::string shownAs{};  ///< the render part of `picture`
         std::unique_ptr<SystemPicture> picture{};
+        light::LitPuffs lit{};              ///< colours in sunlight
         std::unique_ptr<MarkPass> marks{};  ///< null: no part is drawn
     };
 
@@ -56,6 +60,8 @@ class PluginParticles final : public Method {
     void carryEvents();
     void makePicture(System& system);
     void findLights();
+    void shine();
+    [[nodiscard]] Puffs shown(const System& system, const Frame& frame, light::LitPuffs& lit) const;
     void uploadMarks(System& system);
 
     std::vector<particles::NamedParts> parts_;  ///< until `prepare`
@@ -67,6 +73,7 @@ class PluginParticles final : public Method {
     gpu::Device* device_ = nullptr;
     scene::SceneState now_;
     std::vector<scene::PointLight> lights_;
+    std::unique_ptr<Sunlight> sunlight_;  ///< null unless scene::Lights::onDust
 };
 
 /// Called by the registry.

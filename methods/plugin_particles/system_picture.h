@@ -35,6 +35,7 @@ class SystemPicture {
     /// Draws the last upload; may be called repeatedly.
     void draw(const scene::View& view, const gpu::Layer& layer);
 
+    [[nodiscard]] const particles::Look& look() const { return look_; }
     /// Returns the number of primitives that the last `draw` submitted.
     [[nodiscard]] std::size_t count() const { return pass_->count() * (look_.stereo ? 2 : 1); }
     [[nodiscard]] MemoryReport memory() const;

@@ -2,15 +2,18 @@
 // file or as voxels.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <fstream>
 #include <optional>
 
 #include "methods/contract/choices.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/experiment.h"
+#include "methods/kit/files/csv.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/whole_text.h"
 #include "methods/voxel_shape/edit_text.h"
+#include "methods/voxel_shape/living_shape.h"
 #include "methods/voxel_shape/shape_builder.h"
 #include "methods/voxel_shape/shape_file.h"
 #include "methods/voxel_shape/voxels/voxel_file.h"
@@ -28,9 +31,19 @@ constexpr Choices<EditKind> editOptions{{"--paint", EditKind::paint},
 struct Call {
     fs::path file;
     std::optional<fs::path> save;
+    std::optional<double> seconds, every;  ///< if the shape is to move before it is saved
     std::string scene = "plain";
     std::vector<ToolArgument> edits;
 };
+
+constexpr double toolStepSeconds = 1.0 / 60;
+
+double secondsOf(const ToolArgument& argument) {
+    const auto seconds = files::numberOf(argument.value);
+    if (!seconds || !(*seconds >= toolStepSeconds) || *seconds > 600)
+        throw InputError(argument.name + ": got '" + argument.value + "', allowed: 0.0167..600 s");
+    return *seconds;
+}
 
 Call callOf(std::span<const ToolArgument> arguments) {
     Call call;
@@ -42,11 +55,18 @@ Call callOf(std::span<const ToolArgument> arguments) {
             call.save = argument.value;
         else if (argument.name == "--scene")
             call.scene = argument.value;
+        else if (argument.name == "--seconds")
+            call.seconds = secondsOf(argument);
+        else if (argument.name == "--every")
+            call.every = secondsOf(argument);
         else
             call.edits.push_back(argument);
     }
     if (call.save && call.save->extension() != ".toml" && call.save->extension() != ".vti")
         throw InputError("--save: got '" + call.save->string() + "', allowed: a file that ends in .toml or .vti");
+    if (call.every && !call.seconds) throw InputError("--every: requires --seconds, the end of the series");
+    if (call.seconds && (!call.save || call.save->extension() != ".vti"))
+        throw InputError("--seconds: requires --save FILE.vti, because a shape file holds no particles");
     return call;
 }
 
@@ -112,6 +132,41 @@ void save(const Call& call, const Shape& edited, const VoxelGrid& voxels) {
     writeText(*call.save, textOf(call.file, folder, edits), edited);
 }
 
+/// ParaView's index of a series.
+void writeSeries(const fs::path& file, const std::vector<std::pair<std::string, double>>& moments) {
+    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";
+    for (const auto& [name, seconds] : moments)
+        text += fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", seconds, name);
+    if (!(std::ofstream(file, std::ios::binary) << text << "</Collection>\n</VTKFile>\n" << std::flush))
+        throw InputError(file.string() + ": the series cannot be written there");
+}
+
+/// Moves the shape in its scene, and saves its voxels with the particles that they hold: at the end, or as a series.
+/// Returns the number held at the end.
+std::uint64_t saveMoved(const Call& call, const Shape& edited, ExperimentContext& context) {
+    const auto world = context.world(call.scene, {}, 1, 1);
+    MemoryLedger ledger;
+    LivingShape living(edited);
+    living.prepare(ledger, world->scene(), context.device(), context.seed());
+    const auto stepsIn = [](double seconds) {
+        return static_cast<std::int64_t>(std::llround(seconds / toolStepSeconds));
+    };
+    const std::int64_t last = stepsIn(*call.seconds), every = call.every ? stepsIn(*call.every) : 0;
+    std::vector<std::pair<std::string, double>> moments;
+    for (std::int64_t step = 1; step <= last; ++step) {
+        living.step(world->step());
+        if (every == 0 || step % every != 0) continue;
+        const std::string name = fmt::format("{}_{:06}.vti", call.save->stem().string(), step);
+        writeVoxels(living.system().grid(), call.save->parent_path() / name);
+        moments.emplace_back(name, static_cast<double>(step) * toolStepSeconds);
+        writeSeries(fs::path(*call.save).replace_extension(".pvd"), moments);
+    }
+    if (every == 0) writeVoxels(living.system().grid(), *call.save);
+    std::uint64_t held = 0;
+    for (const Voxel& voxel : living.system().grid().voxels()) held += voxel.density;
+    return held;
+}
+
 /// Returns the number of active voxels with a force.
 std::size_t forced(const VoxelGrid& grid) {
     const auto isForced = [&](std::uint32_t i) { return glm::length(grid.voxels()[i].force) > 0; };
@@ -160,8 +215,14 @@ std::vector<std::vector<std::string>> edit(ExperimentContext& context, std::span
     MemoryLedger ledger;
     const VoxelGrid before = voxelsOf(ledger, shape, call.scene, context);
     const VoxelGrid after = voxelsOf(ledger, edited, call.scene, context);
-    if (call.save) save(call, edited, after);
-    return table(before, after);
+    if (!call.seconds) {
+        if (call.save) save(call, edited, after);
+        return table(before, after);
+    }
+    const std::uint64_t held = saveMoved(call, edited, context);
+    auto shown = table(before, after);
+    shown.push_back({fmt::format("particles after {} s", *call.seconds), "", std::to_string(held)});
+    return shown;
 }
 
 }  // namespace
@@ -193,7 +254,10 @@ ToolInfo describe() {
          true},
         {"--save", "OUT",
          "writes a shape file (.toml) with these edits, or the voxels (.vti); replaces an existing one"},
-        {"--scene", "ID", "the scene whose vehicle is used if the shape is the vehicle; default: plain"}};
+        {"--seconds", "S",
+         "moves the shape for S seconds before its voxels are saved, with the particles that they then hold (density)"},
+        {"--every", "S", "saves a series instead: OUT_000030.vti after 30 steps …, and OUT.pvd for ParaView"},
+        {"--scene", "ID", "the scene that the shape moves in, and whose vehicle it may be; default: plain"}};
     info.run = edit;
     return info;
 }

@@ -95,12 +95,20 @@ def frame_of(path):
 
 
 def files_of(folder, extension):
-    """The shared dust's files, f000120.vdb; a method's own have another name behind the number."""
+    """Files that every method has, f000120.vdb; a method's own have another name behind the number."""
     return sorted(path for path in pathlib.Path(folder).glob(f"f*.{extension}") if path.stem[1:].isdigit())
 
 
+def particles_of(folder):
+    """The particles that the method shows, its own or the shared dust."""
+    series = pathlib.Path(folder) / "particles.pvd"
+    if not series.exists():
+        return files_of(folder, "vtp")
+    return [series.parent / step.get("file") for step in xml.etree.ElementTree.parse(series).getroot().iter("DataSet")]
+
+
 def check(folder):
-    volumes, points = files_of(folder, "vdb"), files_of(folder, "vtp")
+    volumes, points = files_of(folder, "vdb"), particles_of(folder)
     if not volumes and not points:
         sys.exit(f"{folder}: no .vdb and no .vtp files; export with --format vdb,vtp")
     print(f"{len(volumes)} volumes, {len(points)} files of particles")
@@ -117,7 +125,7 @@ def import_all(bpy, folder):
     root = bpy.data.objects.new("dustbench", None)
     root.rotation_euler = (math.pi / 2, 0, 0)
     bpy.context.scene.collection.objects.link(root)
-    volumes, points = files_of(folder, "vdb"), files_of(folder, "vtp")
+    volumes, points = files_of(folder, "vdb"), particles_of(folder)
     scene = bpy.context.scene
     if volumes:
         scene.frame_start, scene.frame_end = 1, len(volumes)

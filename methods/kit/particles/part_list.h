@@ -1,4 +1,5 @@
-// The parts of one system: six single parts and four lists. They may be replaced between updates.
+// The parts of one system, six single parts and four lists, and how it stores its particles. All may be replaced
+// between updates.
 //
 // Owns: the parts. Source: Thesis, 3.1.3.
 #pragma once
@@ -11,6 +12,7 @@
 #include "methods/kit/particles/event_part.h"
 #include "methods/kit/particles/force_part.h"
 #include "methods/kit/particles/life_part.h"
+#include "methods/kit/particles/linked_particles.h"
 #include "methods/kit/particles/position_part.h"
 #include "methods/kit/particles/render_part.h"
 #include "methods/kit/particles/shading_part.h"
@@ -48,6 +50,9 @@ class DUSTBENCH_API PartList {
     [[nodiscard]] const List<ForcePart>& forces() const { return forces_; }
     [[nodiscard]] const List<EventPart>& events() const { return events_; }
 
+    [[nodiscard]] Storage storage() const { return storage_; }
+    void setStorage(Storage storage) { storage_ = storage; }
+
     /// The part that sets lifetimes.
     [[nodiscard]] const LifePart& lifetime() const;
     /// Every part, by kind in the order of PartKind.
@@ -68,6 +73,7 @@ class DUSTBENCH_API PartList {
     List<ShadingPart> shadings_;
     List<ForcePart> forces_;
     List<EventPart> events_;
+    Storage storage_ = Storage::array;
 };
 
 }  // namespace dustbench::particles

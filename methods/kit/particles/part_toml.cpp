@@ -78,6 +78,7 @@ std::unique_ptr<Part> readPart(files::TomlReader table, const std::filesystem::p
 /// Reads the parts in a table; all its other keys must have been read before. `from`: the file, or empty.
 std::unique_ptr<PartList> readParts(files::TomlReader& table, const std::filesystem::path& from) {
     auto parts = std::make_unique<PartList>();
+    if (table.has("storage")) parts->setStorage(table.choice("storage", storages));
     for (std::size_t k = 0; k < partKindNames.size(); ++k) {
         const auto kind = static_cast<PartKind>(k);
         const std::string_view key = partKindNames[k];
@@ -156,6 +157,12 @@ std::string partToToml(const Part& part, const std::string& prefix) {
     return toml;
 }
 
+/// Before the parts; nothing if it is the default.
+std::string storageToToml(const PartList& parts) {
+    if (parts.storage() == Storage::array) return {};
+    return "storage = " + files::tomlText(std::string(storages.wordOf(parts.storage()))) + "\n";
+}
+
 std::string partsToToml(const PartList& parts, const std::string& prefix) {
     std::string toml;
     for (const Part* part : parts.all()) toml.append(toml.empty() ? "" : "\n").append(partToToml(*part, prefix));
@@ -187,7 +194,8 @@ std::unique_ptr<PartList> partsFromText(std::string_view text, std::string name)
 }
 
 std::string partsToToml(const PartList& parts) {
-    return partsToToml(parts, "");
+    const std::string storage = storageToToml(parts);
+    return storage + (storage.empty() ? "" : "\n") + partsToToml(parts, "");
 }
 
 std::string systemsToToml(std::span<const NamedPartsView> systems) {
@@ -195,7 +203,7 @@ std::string systemsToToml(std::span<const NamedPartsView> systems) {
     std::string toml;
     for (const NamedPartsView& system : systems)
         toml.append(toml.empty() ? "" : "\n")
-            .append("[[system]]\nname = " + files::tomlText(system.name) + "\n\n")
+            .append("[[system]]\nname = " + files::tomlText(system.name) + "\n" + storageToToml(system.parts) + "\n")
             .append(partsToToml(system.parts, "system."));
     return toml;
 }

@@ -106,6 +106,30 @@ void ParticleStore::put(const Chunk& chunk, std::size_t from, std::size_t to) {
     }
 }
 
+void ParticleStore::append(const Puffs& puffs) {
+    const std::size_t before = size();
+    if (before == 0) {
+        keepOneColour(puffs.uniformColour);
+        colourOfAll = puffs.colourOfAll;
+    } else if (!puffs.uniformColour || puffs.colourOfAll != colourOfAll) {
+        keepOneColour(false);
+    }
+    resize(before + puffs.size());
+    const auto take = [before](auto& column, const auto& from) {
+        std::ranges::copy(from, column.begin() + static_cast<std::ptrdiff_t>(before));
+    };
+    take(serial, puffs.serial);
+    take(x, puffs.x), take(y, puffs.y), take(z, puffs.z);
+    take(velocityX, puffs.velocityX), take(velocityY, puffs.velocityY), take(velocityZ, puffs.velocityZ);
+    take(age, puffs.age), take(lifetime, puffs.lifetime);
+    take(radius, puffs.radius), take(opacity, puffs.opacity);
+    if (uniformColour) return;
+    for (std::size_t i = 0; i < puffs.size(); ++i) {
+        const glm::vec3 colour = puffs.colour(i);
+        red[before + i] = colour.r, green[before + i] = colour.g, blue[before + i] = colour.b;
+    }
+}
+
 std::uint64_t ParticleStore::hash() const {
     maths::Hash hash;
     hash.add(static_cast<std::uint64_t>(size()));

@@ -34,6 +34,8 @@ class DUSTBENCH_API ParticleStore {
     [[nodiscard]] Chunk chunk(std::size_t first, std::size_t count);
     /// Copies particle `from` of a chunk over particle `to`; colour only if colours are kept.
     void put(const Chunk& chunk, std::size_t from, std::size_t to);
+    /// Appends copies; colours become one per particle unless all have the same.
+    void append(const Puffs& puffs);
     /// Hash of every column, in storage order.
     [[nodiscard]] std::uint64_t hash() const;
     /// Stores one colour for all particles, or one per particle, initialised to `colourOfAll`.

@@ -16,6 +16,7 @@
 #include "methods/kit/particles/chunk_update.h"
 #include "methods/kit/particles/emitter_tracker.h"
 #include "methods/kit/particles/event_record.h"
+#include "methods/kit/particles/linked_particles.h"
 #include "methods/kit/particles/newborn_block.h"
 #include "methods/kit/particles/noted_particles.h"
 #include "methods/kit/particles/part_toml.h"
@@ -62,6 +63,8 @@ struct ParticleSystem::State {
     void live(const MetSurfaces& surfaces, const Step& step);
     /// The same with a force that settles particles.
     void liveLinked(ForcePart& settling, const MetSurfaces& surfaces, const Step& step);
+    /// Moves the particles if the choice of storage has changed.
+    void followStorage();
     void bury(std::span<const std::uint32_t> holes);
     /// Returns the holes that remain.
     [[nodiscard]] std::span<const std::uint32_t> giveBirth(const Births& births, std::span<const Emitter> emitters,
@@ -76,6 +79,7 @@ struct ParticleSystem::State {
     EmitterTracker tracker;
     MemoryLedger ledger;
     ParticleStore store{ledger};
+    std::unique_ptr<LinkedParticles> nodes;  ///< null: the store alone holds the particles
     NotedParticles deaths{ledger};
     std::optional<LinkedStart> start;  ///< only if a force settles particles
     EventRecord record;
@@ -93,14 +97,25 @@ struct ParticleSystem::State {
 void ParticleSystem::State::requireRoom(double particles) {
     if (particles <= roomFor) return;
     constexpr double maximumCount = 0xffffffff;  // a particle's index has 32 bits
-    const double bytes = particles * static_cast<double>(ParticleStore::bytesPerParticle);
+    const std::size_t bytesOfOne = ParticleStore::bytesPerParticle +
+                                   (parts->storage() == Storage::array ? 0 : LinkedParticles::bytesPerParticle());
+    const double bytes = particles * static_cast<double>(bytesOfOne);
     const std::string asked = fmt::format("{:.0f} particles of a system", particles);
     if (particles > maximumCount)
         throw InputError(
             fmt::format("{} need {:.3g} bytes, allowed: at most {:.0f} particles", asked, bytes, maximumCount));
-    const double held = static_cast<double>(store.size()) * static_cast<double>(ParticleStore::bytesPerParticle);
+    const double held = static_cast<double>(store.size()) * static_cast<double>(bytesOfOne);
     requireAvailable(asked, static_cast<std::size_t>(std::max(bytes - held, 0.0)));
     roomFor = particles;
+}
+
+void ParticleSystem::State::followStorage() {
+    const Storage chosen = parts->storage();
+    if (chosen == Storage::array) return nodes.reset();
+    const bool pool = chosen == Storage::pool;
+    if (nodes && nodes->pool() == pool) return;
+    nodes = std::make_unique<LinkedParticles>(ledger, pool);
+    nodes->add(store, 0);
 }
 
 void ParticleSystem::State::live(const MetSurfaces& surfaces, const Step& step) {
@@ -227,6 +242,7 @@ void ParticleSystem::update(const Surroundings& surroundings) {
     State& s = *state_;
     if (const std::string missing = s.parts->missing(); !missing.empty()) throw std::logic_error(missing);
     const PartList& parts = *s.parts;
+    s.followStorage();
     const double fixedRate = static_cast<double>(surroundings.fixedCount) / meanLifetimeSeconds();
     const double rate = fixedRate > 0 ? fixedRate : parts.emission()->meanRatePerSecond();
     s.requireRoom(rate * meanLifetimeSeconds() * static_cast<double>(surroundings.particlesPerPuff));
@@ -252,9 +268,17 @@ void ParticleSystem::update(const Surroundings& surroundings) {
         s.liveLinked(*settling, surfaces, step);
     else
         s.live(surfaces, step);
-    const auto holes = s.deaths.collect();
-    s.record.noteMoved(s.store, holes, static_cast<float>(step.seconds));
-    s.giveBirths(holes, surfaces, step);
+    const auto dead = s.deaths.collect();
+    s.record.noteMoved(s.store, dead, static_cast<float>(step.seconds));
+    if (s.nodes) {
+        const std::size_t before = s.store.size();
+        s.nodes->bury(s.store, dead);
+        s.giveBirths({}, surfaces, step);
+        s.nodes->add(s.store, before);
+        s.nodes->show(s.store);
+    } else {
+        s.giveBirths(dead, surfaces, step);
+    }
     s.record.end(parts, step.seconds);
     ++s.steps;
 }
