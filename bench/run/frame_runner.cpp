@@ -167,15 +167,14 @@ void FrameRunner::keepRecord(std::int64_t index, std::int64_t elapsedNs) {
         record.stageMs[stage] = milliseconds(recorder_.stageNs()[stage]);
     for (const StageRecorder::Detail& detail : recorder_.details())
         record.details.push_back({detail.stage, std::string(detail.name), milliseconds(detail.ns)});
-    record.primitives = host_.method().primitives();
-    if (const GpuPuffs* const dust = world_.gpuDust()) {
-        // Read later: with frames in flight, reading now would wait for them.
-        pendingCounts_.emplace_back(records_.size(),
-                                    gpu::Buffer(device_, "number of particles", sizeof(std::uint32_t)));
-        pendingCounts_.back().second.copyFrom(*dust->tally, sizeof(std::uint32_t));
-    } else {
+    if (const gpu::Buffer* const count = host_.method().primitiveCount())
+        keepCount(*count, false);
+    else
+        record.primitives = host_.method().primitives();
+    if (const GpuPuffs* const dust = world_.gpuDust())
+        keepCount(*dust->tally, true);
+    else
         record.particles = static_cast<std::int64_t>(world_.dust().size());
-    }
     const MemoryReport ofWorld = world_.memory();
     record.cpuBytes = bytesOf(ofWorld, &MemoryUse::cpuBytes) + host_.cpuBytes();
     record.gpuBytes = bytesOf(ofWorld, &MemoryUse::gpuBytes) + host_.gpuBytes();
@@ -184,13 +183,21 @@ void FrameRunner::keepRecord(std::int64_t index, std::int64_t elapsedNs) {
     if (spec_.sync != Sync::none) collectCounts();
 }
 
+/// Copies a number of the frame that is recorded next, to be read later: with frames in flight, reading now would wait
+/// for them.
+void FrameRunner::keepCount(const gpu::Buffer& number, bool isOfParticles) {
+    constexpr std::size_t bytes = sizeof(std::uint32_t);
+    pendingCounts_.push_back({records_.size(), isOfParticles, gpu::Buffer(device_, "a number of the frame", bytes)});
+    pendingCounts_.back().number.copyFrom(number, bytes);
+}
+
 void FrameRunner::collectCounts() {
-    for (const auto& [index, buffer] : pendingCounts_) {
-        std::uint32_t particles = 0;
-        buffer.read(std::span(&particles, 1));
-        FrameRecord& record = records_[index];
-        record.particles = particles;
-        if (record.primitives == Method::onePerPuff) record.primitives = particles;
+    for (const PendingCount& pending : pendingCounts_) {
+        std::uint32_t number = 0;
+        pending.number.read(std::span(&number, 1));
+        FrameRecord& record = records_[pending.record];
+        if (pending.isOfParticles) record.particles = number;
+        if (!pending.isOfParticles || record.primitives == Method::onePerPuff) record.primitives = number;
     }
     pendingCounts_.clear();
 }
@@ -219,7 +226,7 @@ void FrameRunner::volume(VolumeVisitor& visitor) {
 
 Columns FrameRunner::facts() {
     const StageClock untimed;
-    return host_.facts(host_.see(lastIndex_, untimed));
+    return host_.facts(host_.seeParticles(lastIndex_, untimed));
 }
 
 DrawnMoment FrameRunner::drawn(bool withDetail) {

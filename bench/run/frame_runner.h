@@ -64,6 +64,7 @@ class FrameRunner {
     void waitForGpu();
     void keepRecord(std::int64_t index, std::int64_t elapsedNs);
     void collectGpuTimes();
+    void keepCount(const gpu::Buffer& number, bool isOfParticles);
     void collectCounts();
 
     RunSpec spec_;
@@ -76,8 +77,13 @@ class FrameRunner {
     std::int64_t lastIndex_ = 0;
     bool useGpuTimers_;
     std::deque<std::pair<std::size_t, gpu::TimerQuery>> pendingGpuTimes_;  ///< by index into records_
-    /// Copies of the number of particles on the GPU, by index into records_.
-    std::deque<std::pair<std::size_t, gpu::Buffer>> pendingCounts_;
+    /// Copies of numbers that only the GPU knows.
+    struct PendingCount {
+        std::size_t record;  ///< index into records_
+        bool isOfParticles;  ///< else of primitives
+        gpu::Buffer number;
+    };
+    std::deque<PendingCount> pendingCounts_;
     std::vector<FrameRecord> records_;
 };
 

@@ -38,12 +38,15 @@ class GpuDustRun : public testing::Test {
     [[nodiscard]] RunRecord measured(const RunSpec& spec) const {
         return measureRun(spec, folder_.path(), {}, [](std::string_view, std::int64_t, std::int64_t) {});
     }
+    [[nodiscard]] static double asDouble(const Value& value) {
+        if (const auto* number = std::get_if<double>(&value)) return *number;
+        if (const auto* number = std::get_if<std::int64_t>(&value)) return static_cast<double>(*number);
+        ADD_FAILURE() << "not a number";
+        return 0;
+    }
     [[nodiscard]] static double numberOf(const RunRecord& record, std::string_view column) {
-        for (const auto& [name, value] : record.summary) {
-            if (name != column) continue;
-            if (const auto* number = std::get_if<double>(&value)) return *number;
-            if (const auto* number = std::get_if<std::int64_t>(&value)) return static_cast<double>(*number);
-        }
+        for (const auto& [name, value] : record.summary)
+            if (name == column) return asDouble(value);
         ADD_FAILURE() << "no " << column;
         return 0;
     }
@@ -68,16 +71,24 @@ struct Stepped {
     FrameRunner runner;
 };
 
-/// Without those that read their pixels' counters: linked_list, and on a software renderer all with a LoopLimit.
-const std::vector<std::pair<std::string, ParameterTexts>> takers{{"billboard", {}},
-                                                                 {"billboard", {{"raster", "tiles"}}},
-                                                                 {"weighted_oit", {}},
-                                                                 {"weighted_oit", {{"raster", "tiles"}}},
-                                                                 {"null_method", {}}};
+/// Methods that take the buffers, and the numbers of a frame that only the GPU knows. Without those that read their
+/// pixels' counters: linked_list, and on a software renderer all with a LoopLimit.
+struct Taker {
+    const char* method;
+    ParameterTexts parameters{};
+    int numbers = 1;  ///< particles, and primitives if there is not one for each particle
+};
+const std::vector<Taker> takers{{"billboard"},
+                                {"billboard", {{"raster", "tiles"}}},
+                                {"weighted_oit"},
+                                {"weighted_oit", {{"raster", "tiles"}}},
+                                {"null_method"},
+                                {"octree_recursive", {{"layout", "gpu"}}, 2},
+                                {"octree_search", {{"layout", "gpu"}, {"render", "cubes"}}, 2}};
 
 TEST_F(GpuDustRun, ReadsNothingBackInAFrame) {
     gpu::Device device;
-    for (const auto& [method, parameters] : takers) {
+    for (const auto& [method, parameters, numbers] : takers) {
         if (!hasMethod(method)) continue;
         RunSpec spec = specOf(method, DustOn::gpu, parameters);
         spec.sync = Sync::none;
@@ -88,8 +99,14 @@ TEST_F(GpuDustRun, ReadsNothingBackInAFrame) {
         for (int index = -1; index < 20; ++index) stepped.runner.frame(index);
         EXPECT_EQ(readBacks.count(), 0) << method;
         stepped.runner.drain();
-        EXPECT_EQ(readBacks.count(), 20) << method << ": one number for each frame, afterwards";
-        for (const FrameRecord& frame : stepped.runner.records()) EXPECT_GT(frame.particles, 100) << method;
+        EXPECT_EQ(readBacks.count(), 20 * numbers) << method << ": the numbers of each frame, afterwards";
+        for (const FrameRecord& frame : stepped.runner.records()) {
+            EXPECT_GT(frame.particles, 100) << method;
+            if (numbers == 2) {
+                EXPECT_GT(frame.primitives, 20) << method;
+                EXPECT_LT(frame.primitives, frame.particles) << method;
+            }
+        }
     }
 }
 
@@ -122,6 +139,43 @@ TEST_F(GpuDustRun, DrawsThePictureOfDustOnTheCpu) {
             const double difference = *flip(preparePicture(shown[0], "CPU"), preparePicture(shown[1], "GPU")).value;
             EXPECT_LT(difference, 1e-3) << method << " in " << scene;
         }
+}
+
+/// Octrees that the GPU builds, from dust on either side, against those of the CPU.
+TEST_F(GpuDustRun, HasTheOctreesOfTheCpu) {
+    gpu::Device device;
+    for (const char* method : {"octree_recursive", "octree_search"})
+        for (const char* scene : {"plain", "two_soils"})
+            for (const char* policy : {"max", "accumulate"}) {
+                if (!hasMethod(method)) continue;
+                std::vector<pictures::Image> shown;
+                std::vector<std::int64_t> voxels;
+                std::vector<Columns> facts;
+                for (const auto& [layout, place] : {std::pair("faithful", DustOn::cpu), std::pair("gpu", DustOn::cpu),
+                                                    std::pair("gpu", DustOn::gpu)}) {
+                    Stepped stepped(specOf(method, place, {{"layout", layout}, {"policy", policy}}, scene), device);
+                    for (int index = -120; index < -1; ++index) stepped.runner.stepWithoutPicture(index);
+                    stepped.runner.verifiedStep(-1);
+                    stepped.runner.frame(0);
+                    shown.push_back(stepped.runner.picture());
+                    stepped.runner.drain();
+                    voxels.push_back(stepped.runner.records().back().primitives);
+                    facts.push_back(stepped.runner.facts());
+                    ASSERT_EQ(facts.back().size(), facts.front().size());
+                    for (std::size_t i = 0; i < facts.front().size(); ++i) {
+                        const auto& [name, value] = facts.front()[i];
+                        EXPECT_EQ(facts.back()[i].first, name);
+                        if (name == "structure_bytes") continue;  // the GPU has no nodes
+                        EXPECT_NEAR(asDouble(facts.back()[i].second), asDouble(value), 1e-6) << name;
+                    }
+                }
+                EXPECT_GT(voxels[0], 100);
+                EXPECT_EQ(voxels[1], voxels[0]) << method << " in " << scene;
+                EXPECT_EQ(voxels[2], voxels[0]) << method << " in " << scene;
+                for (const std::size_t built : {1, 2})
+                    EXPECT_LT(*flip(preparePicture(shown[0], "CPU"), preparePicture(shown[built], "GPU")).value, 1e-3)
+                        << method << " in " << scene << ", " << policy;
+            }
 }
 
 TEST_F(GpuDustRun, IsReadBackInTheUploadForOtherMethods) {

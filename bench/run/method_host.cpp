@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "methods/kit/draw/read_back.h"
+#include "methods/kit/gpu/buffer.h"
 
 namespace dustbench::bench {
 namespace {
@@ -131,6 +132,10 @@ DrawnMoment MethodHost::drawn(const Frame& frame, bool withDetail) {
 }
 
 void MethodHost::keepFacts(const Frame& frame) {
+    if (!method_->reportsAtEnd()) keepMaxima(frame);
+}
+
+void MethodHost::keepMaxima(const Frame& frame) {
     ofFrame_.clear();
     method_->report(frame, ofFrame_);
     for (std::size_t i = 0; i < maxima_.size(); ++i)
@@ -140,6 +145,7 @@ void MethodHost::keepFacts(const Frame& frame) {
 }
 
 Columns MethodHost::facts(const Frame& lastFrame) {
+    if (method_->reportsAtEnd()) keepMaxima(lastFrame);
     Facts atEnd(info_.facts, FactOver::lastFrame);
     method_->report(lastFrame, atEnd);
     Columns columns;
@@ -152,6 +158,11 @@ Columns MethodHost::facts(const Frame& lastFrame) {
 }
 
 std::int64_t MethodHost::primitives() const {
+    if (const gpu::Buffer* const count = method_->primitiveCount()) {
+        std::uint32_t number = 0;
+        count->read(std::span(&number, 1));
+        return number;
+    }
     const std::int64_t drawn = method_->primitives();
     return drawn == Method::onePerPuff ? static_cast<std::int64_t>(world_.dust().size()) : drawn;
 }

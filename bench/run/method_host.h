@@ -39,7 +39,7 @@ class MethodHost {
     /// The current state of the world as the method sees it. Valid until the next call or step; `clock` must outlive
     /// it. Reads dust on the GPU back for methods that do not take it there, in the stage `upload`.
     [[nodiscard]] Frame see(std::int64_t index, const StageClock& clock);
-    /// The same with the particles on the CPU, for Method::volume.
+    /// The same with the particles on the CPU, for Method::volume and for facts of the last frame.
     [[nodiscard]] Frame seeParticles(std::int64_t index, const StageClock& clock);
     void update(const Frame& frame);
     /// Draws the opaque scene and the method and composes them; reported as the stages `scene` and `draw`.
@@ -59,13 +59,14 @@ class MethodHost {
     /// Draws the frame outside all timing. `withDetail`: also draws the layer without the scene.
     [[nodiscard]] DrawnMoment drawn(const Frame& frame, bool withDetail);
 
-    /// Updates the facts that are maxima over all recorded frames. Call after a recorded frame, untimed.
+    /// Updates the facts that are maxima over all recorded frames, unless the method reports them at the end. Call
+    /// after a recorded frame, untimed.
     void keepFacts(const Frame& frame);
     /// All facts that the method reports, by column; facts of the last frame are queried now.
     [[nodiscard]] Columns facts(const Frame& lastFrame);
 
     [[nodiscard]] const Method& method() const { return *method_; }
-    /// Primitives of the last `draw`. May read back the number of particles.
+    /// Primitives of the last `draw`. May read back their number, or that of particles.
     [[nodiscard]] std::int64_t primitives() const;
     [[nodiscard]] std::int64_t cpuBytes() const;
     [[nodiscard]] std::int64_t gpuBytes() const { return static_cast<std::int64_t>(ledger_.totalBytes()); }
@@ -73,6 +74,8 @@ class MethodHost {
     [[nodiscard]] const MemoryLedger& gpuLedger() const { return ledger_; }
 
  private:
+    void keepMaxima(const Frame& frame);
+
     const World& world_;
     gpu::Device& device_;
     const MethodInfo& info_;

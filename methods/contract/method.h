@@ -19,6 +19,7 @@
 namespace dustbench {
 
 namespace gpu {
+class Buffer;
 class Device;
 class Layer;
 }  // namespace gpu
@@ -32,7 +33,8 @@ struct Frame {
     const scene::View& view;         ///< the view that this frame is drawn from
     const StageClock& clock;         ///< times the method's stages
     /// The shared dust in GPU buffers; null if it is on the CPU, or the method does not declare `takesGpuDust`. Then
-    /// `dust` has no particles, only the colour of all; in Method::volume it has them.
+    /// `dust` has no particles, only the colour of all; in Method::volume, and in Method::report after the last frame,
+    /// it has them.
     const GpuPuffs* gpuDust = nullptr;
 };
 
@@ -72,12 +74,17 @@ class DUSTBENCH_API Method {
     virtual void volume(const Frame&, VolumeVisitor&) const {}
     /// Reports the declared facts of the state after `update(frame)`. Called after recorded frames; never timed.
     virtual void report(const Frame&, Facts&) const {}
+    /// True if `report` would wait for the GPU. It is then called only after the last frame, and reports the maxima
+    /// over all recorded frames.
+    [[nodiscard]] virtual bool reportsAtEnd() const { return false; }
     /// CPU and GPU bytes held by the method, by structure.
     [[nodiscard]] virtual MemoryReport memory() const { return {}; }
     /// Number of primitives (billboards, voxels, rays …) that the last `draw` submitted to the GPU; `onePerPuff`: as
     /// many as the shared dust has puffs, which only the GPU knows.
     static constexpr std::int64_t onePerPuff = -1;
     [[nodiscard]] virtual std::int64_t primitives() const { return 0; }
+    /// If only the GPU knows that number: a buffer with it in the first word. `primitives` is then not called.
+    [[nodiscard]] virtual const gpu::Buffer* primitiveCount() const { return nullptr; }
     /// Lights that the state after `update` casts on the opaque scene, such as a fire's. At most maximumPointLights.
     [[nodiscard]] virtual std::vector<scene::PointLight> lights() const { return {}; }
     /// With scene::Lights::onDust: the puffs of the method's own simulation, whose shadow falls on the opaque scene;

@@ -83,6 +83,8 @@ const std::vector<Product> products{
     {"octree_recursive", {}, {"render", "crossfade"}, true},
     {"grid_fluid", {{"scheme", "demo"}, {"fluid", "fire"}, {"solver", "opengl"}, {"backend", "gl"}}, {}},
     {"octree_search", {}, {"render", "crossfade"}, true},
+    {"octree_search", {{"layout", "gpu"}}, {}, true},
+    {"octree_search", {{"layout", "gpu"}, {"render", "cubes"}}, {}, true},
     {"voxel_shape", {}, {"render", "blend"}},
     {"exact_tiles", {}, {}, true},
     {"linked_list", {}, {"puff"}, true},

@@ -159,7 +159,7 @@ void showMemoryOf(const MethodHost& host, const char* half) {
     showRow({"total", inMegabytes(static_cast<std::size_t>(host.cpuBytes())),
              inMegabytes(static_cast<std::size_t>(host.gpuBytes()))});
     ImGui::EndTable();
-    showText(fmt::format("{} primitives", host.method().primitives()));
+    showText(fmt::format("{} primitives", host.primitives()));
 }
 
 /// A section that is initially closed, recorded under `name`.

@@ -3,7 +3,13 @@
 layout(std430, binding = 0) readonly buffer Instances {
     float values[];  // x y z edge τ [red green blue]
 };
+#ifdef COUNT_ON_GPU
+layout(std430, binding = 7) readonly buffer Drawn {
+    int count;
+};
+#else
 uniform int count;
+#endif
 uniform vec3 eye;
 uniform mat4 worldToEye;
 uniform vec3 projection;  // x and y scale, near distance

@@ -137,7 +137,7 @@ void declareDustFacts(MethodInfo& info) {
 }
 
 void declareLayout(MethodInfo& info, const std::string& help) {
-    info.parameters.choice("layout", "faithful", {"faithful", "morton", "paper"}, help)
+    info.parameters.choice("layout", "faithful", {"faithful", "morton", "paper", "gpu"}, help)
         .choice("mode", "fixed", {"fixed", "paper"}, "fixed: the optical model; paper: built and drawn as in the paper")
         .preset("mode", "paper",
                 {{"layout", "paper"}, {"opacity", "age"}, {"render", "circles"}, {"sort", "quicksort"}});
@@ -154,6 +154,10 @@ DustSettings dustSettings(const ParameterValues& values) {
     settings.crossFadeSeconds = values.real("crossfade_time");
     settings.worldEdgeMetres = values.real("world_edge");
     return settings;
+}
+
+float edgesPerDrawnRadius(Render render) {
+    return render == Render::circles ? halfSideOfRadius / circleOfEdge : edgePerRadius;
 }
 
 OctreeDust::OctreeDust(const DustSettings& settings, const MakeBuilder& makeBuilder)
@@ -228,7 +232,7 @@ void OctreeDust::uploadBillboards(std::span<const std::uint32_t> order) {
     const VoxelCloud& cloud = shown();
     const draw::InstanceLayout layout = billboards_->layout(cloud.coloured());
     const std::span<float> memory = billboards_->map(order.size(), layout);
-    const float edgesPerRadius = settings_.render == Render::circles ? halfSideOfRadius / circleOfEdge : edgePerRadius;
+    const float edgesPerRadius = edgesPerDrawnRadius(settings_.render);
     parallel::forEachBlock(order.size(), voxelsPerBlock, [&](std::size_t first, std::size_t count) {
         float* value = memory.data() + first * layout.floats;
         for (std::size_t k = first; k < first + count; ++k) {
@@ -303,26 +307,31 @@ void OctreeDust::volume(const Frame&, VolumeVisitor& visitor) const {
     visitor.octree({cloud.lattice.origin, cloud.lattice.edgeMetres, cloud.lattice.depth, voxels});
 }
 
+void reportMass(const ShownMass& mass, const DustSettings& settings, Facts& facts) {
+    const Puffs& dust = mass.dust;
+    double ofParticles = 0, outside = 0, built = 0, ofShown = 0;
+    for (std::size_t i = 0; i < dust.size(); ++i) {
+        ofParticles += massOf(dust, i);
+        if (!holds(mass.lattice,
+                   {Extent{dust.x[i], dust.x[i]}, Extent{dust.y[i], dust.y[i]}, Extent{dust.z[i], dust.z[i]}}))
+            outside += massOf(dust, i);
+    }
+    if (!(ofParticles > 0)) return;
+    for (const float each : mass.built) built += static_cast<double>(each);
+    for (const float each : mass.shown) ofShown += static_cast<double>(each);
+    facts.set("mass_kept", ofShown / ofParticles);
+    // With the other policies a voxel keeps only one of its particles; opacity by age alone does not conserve mass.
+    const bool keepsAll =
+        settings.tree.policy == OpacityPolicy::accumulate && settings.opacity == draw::OpacityFrom::dust;
+    if (settings.worldGrows)
+        facts.set("mass_lost", keepsAll ? std::abs(1 - built / ofParticles) : outside / ofParticles);
+}
+
 void OctreeDust::report(const Frame& frame, Facts& facts) const {
     facts.set("clipped", clipped_);
     facts.set("structure_bytes", static_cast<std::int64_t>(builder_->structureBytes(tree_)));
     if (settings_.worldGrows) facts.set("world_edge_max", cloud_.lattice.edgeMetres);
-    if (!facts.wants("mass_kept")) return;
-    double ofParticles = 0, outside = 0, built = 0, ofShown = 0;
-    for (std::size_t i = 0; i < frame.dust.size(); ++i) {
-        ofParticles += massOf(frame.dust, i);
-        if (!holds(cloud_.lattice, {Extent{frame.dust.x[i], frame.dust.x[i]}, Extent{frame.dust.y[i], frame.dust.y[i]},
-                                    Extent{frame.dust.z[i], frame.dust.z[i]}}))
-            outside += massOf(frame.dust, i);
-    }
-    if (!(ofParticles > 0)) return;
-    for (const float mass : cloud_.mass) built += static_cast<double>(mass);
-    for (const float mass : shown().mass) ofShown += static_cast<double>(mass);
-    facts.set("mass_kept", ofShown / ofParticles);
-    // With the other policies a voxel keeps only one of its particles; opacity by age alone does not conserve mass.
-    const bool keepsAll = settings_.tree.policy == OpacityPolicy::accumulate && !byAge_;
-    if (settings_.worldGrows)
-        facts.set("mass_lost", keepsAll ? std::abs(1 - built / ofParticles) : outside / ofParticles);
+    if (facts.wants("mass_kept")) reportMass({frame.dust, cloud_.lattice, cloud_.mass, shown().mass}, settings_, facts);
 }
 
 MemoryReport OctreeDust::memory() const {

@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "methods/contract/method.h"
 #include "methods/kit/draw/billboards.h"
@@ -55,6 +56,18 @@ DUSTBENCH_API void declareDustFacts(MethodInfo& info);
 DUSTBENCH_API void declareLayout(MethodInfo& info, const std::string& help);
 /// Throws InputError if the values are inconsistent.
 [[nodiscard]] DUSTBENCH_API DustSettings dustSettings(const ParameterValues& values);
+
+/// Edge of a voxel per radius of the billboard that shows it.
+[[nodiscard]] DUSTBENCH_API float edgesPerDrawnRadius(Render render);
+
+/// Optical masses after a frame, m².
+struct ShownMass {
+    const Puffs& dust;
+    const Lattice& lattice;
+    std::span<const float> built, shown;  ///< of the voxels in the tree, and of those drawn
+};
+/// Sets the facts `mass_kept` and `mass_lost`.
+DUSTBENCH_API void reportMass(const ShownMass& mass, const DustSettings& settings, Facts& facts);
 
 class DUSTBENCH_API OctreeDust final : public Method {
  public:

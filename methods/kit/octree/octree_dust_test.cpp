@@ -13,46 +13,12 @@
 
 #include "methods/contract/errors.h"
 #include "methods/contract/volume.h"
-#include "methods/kit/octree/cell_kernel.h"
+#include "methods/kit/octree/map_builder_test_tree.h"
 #include "methods/kit/octree/particle_place.h"
 #include "methods/kit/testing/test_moment.h"
 
 namespace dustbench::octree {
 namespace {
-
-/// The simplest builder: looks up voxels in a map.
-class MapBuilder final : public OctreeBuilder {
- public:
-    std::int64_t build(const Puffs& store, const Lattice& lattice, const OctreeSettings& settings,
-                       Octree& tree) override {
-        const VoxelRule rule(store, settings.policy);
-        const CellKernel<LevelRule::age> kernel(store, lattice, settings);
-        std::map<std::uint64_t, std::pair<CellEntry, double>> voxels;
-        std::int64_t clipped = 0;
-        for (std::uint32_t i = 0; i < store.size(); ++i) {
-            const ParticleCell cell = kernel(i);
-            if (cell.outside != 0) {
-                ++clipped;
-                continue;
-            }
-            const std::uint64_t code = static_cast<std::uint64_t>(cell.brickCode) << 12 | cell.localCode;
-            const CellEntry entry(code, static_cast<int>(cell.rise), i);
-            const CellEntry voxel(entry.voxelCode(), entry.rise(), i);
-            auto& [winner, mass] = voxels.try_emplace(entry.place(), voxel, 0.0).first->second;
-            if (rule.wins(i, winner.index())) winner = voxel;
-            mass += rule.massSquareMetres(i);
-        }
-        tree.clear(settings.depth);
-        tree.setVoxels(voxels.size(), rule.accumulates());
-        std::uint32_t k = 0;
-        for (const auto& [place, found] : voxels) {
-            tree.mutableVoxels()[k] = found.first;
-            if (rule.accumulates()) tree.mutableMasses()[k] = found.second;
-            tree.makeNode(found.first.code(), found.first.rise()).voxel = ++k;
-        }
-        return clipped;
-    }
-};
 
 /// A trail behind a vehicle at the world's origin.
 class Moment : public TestMoment {

@@ -13,21 +13,7 @@
 namespace dustbench::octree {
 namespace {
 
-/// Texels per row, and rows: limits guaranteed by OpenGL 4.5.
-constexpr int rowBits = 12;
-constexpr std::size_t texelsPerRow = 1u << rowBits, maximumRows = 16384;
-
-/// The rays through pixels (x, y), y from the bottom: corner + x·right + y·up, of length 1 along the camera's axis.
-struct Rays {
-    glm::dvec3 corner, right, up;
-};
-
-Rays raysOf(const scene::View& view, const glm::mat4& worldToEye) {
-    const glm::dmat3 axes = glm::transpose(glm::dmat3(glm::mat3(worldToEye)));
-    const double pixel = 2 * std::tan(view.camera.verticalFieldOfView / 2) / view.height;
-    const glm::dvec3 right = pixel * axes[0], up = pixel * axes[1];
-    return {-axes[2] - 0.5 * view.width * right - 0.5 * view.height * up, right, up};
-}
+constexpr std::size_t texelsPerRow = marchTexelsPerRow, maximumRows = maximumMarchRows;
 
 /// True if a box, given by its corners relative to the eye, is entirely beyond the near plane.
 bool isBeforeNearPlane(const glm::dvec3& minimum, const glm::dvec3& maximum, const glm::dvec3& forward,
@@ -39,6 +25,13 @@ bool isBeforeNearPlane(const glm::dvec3& minimum, const glm::dvec3& maximum, con
 }
 
 }  // namespace
+
+MarchRays marchRays(const scene::View& view) {
+    const glm::dmat3 axes = glm::transpose(glm::dmat3(glm::mat3(view.worldToEye())));
+    const double pixel = 2 * std::tan(view.camera.verticalFieldOfView / 2) / view.height;
+    const glm::dvec3 right = pixel * axes[0], up = pixel * axes[1];
+    return {-axes[2] - 0.5 * view.width * right - 0.5 * view.height * up, right, up};
+}
 
 OctreeMarch::OctreeMarch(gpu::Device& device) : device_(device), vertices_(device) {}
 
@@ -71,7 +64,7 @@ gpu::Program& OctreeMarch::program() {
     const bool coloured = !tree_.colours().empty();
     std::optional<gpu::Program>& made = coloured ? ownColours_ : oneColour_;
     if (!made) {
-        std::map<std::string, std::string> definitions{{"ROW_BITS", std::to_string(rowBits)}};
+        std::map<std::string, std::string> definitions{{"ROW_BITS", std::to_string(marchRowBits)}};
         if (coloured) definitions["COLOURED"] = "";
         made.emplace(device_, "octree march",
                      std::initializer_list<gpu::ShaderFile>{octree_shaders::octree_march_vert,
@@ -85,7 +78,7 @@ void OctreeMarch::draw(const scene::View& view, const glm::vec3& colourOfAll, co
     if (!drawable_) return;
     gpu::Program& program = this->program();
     const glm::mat4 worldToEye = view.worldToEye(), eyeToClip = view.eyeToClip();
-    const Rays rays = raysOf(view, worldToEye);
+    const MarchRays rays = marchRays(view);
 
     // Subtract the eye in double precision, so that the world may lie anywhere.
     const double cellMetres = lattice_.cellEdgeMetres(lattice_.depth);

@@ -15,11 +15,17 @@ uniform vec3 colourOfAll;
 layout(binding = 0) uniform sampler2D sceneDepth;
 
 // Lengths are in finest cells. A ray's parameter is the distance along the camera's axis, as in the depth buffer.
+#ifdef WORLD_ON_GPU
+layout(std140, binding = 3) uniform World {
+    vec4 eyeAndNear, minimumAndLevels, maximumOfAll;
+};
+#else
 uniform int levels;
 uniform vec3 eye;                         // from the world's minimum corner
 uniform vec3 minimum, maximum;  // cells [minimum, maximum) contain all voxels
-uniform vec3 rayCorner, rayRight, rayUp;  // the ray through the image's corner, and its change per pixel
 uniform float nearDistance;
+#endif
+uniform vec3 rayCorner, rayRight, rayUp;  // the ray through the image's corner, and its change per pixel
 
 layout(location = 0) out vec4 colour;
 
@@ -31,6 +37,11 @@ ivec2 placeOf(int index) {
 
 void main() {
     colour = vec4(0);
+#ifdef WORLD_ON_GPU
+    int levels = int(minimumAndLevels.w);
+    vec3 eye = eyeAndNear.xyz, minimum = minimumAndLevels.xyz, maximum = maximumOfAll.xyz;
+    float nearDistance = eyeAndNear.w;
+#endif
     vec3 ray = rayCorner + gl_FragCoord.x * rayRight + gl_FragCoord.y * rayUp;
     float stretch = length(ray);
 

@@ -21,6 +21,15 @@
 
 namespace dustbench::octree {
 
+/// Texels per row, and rows, of the textures with the slots: limits guaranteed by OpenGL 4.5.
+inline constexpr int marchRowBits = 12, marchTexelsPerRow = 1 << marchRowBits, maximumMarchRows = 16384;
+
+/// The rays through pixels (x, y), y from the bottom: corner + x·right + y·up, of length 1 along the camera's axis.
+struct MarchRays {
+    glm::dvec3 corner, right, up;
+};
+[[nodiscard]] MarchRays marchRays(const scene::View& view);
+
 class OctreeMarch {
  public:
     explicit OctreeMarch(gpu::Device& device);

@@ -1,8 +1,14 @@
 // Covers the pixels whose rays may hit a box: draws the faces of the box that face the eye, or the whole image.
+#ifdef WORLD_ON_GPU
+const bool wholePicture = true;
+const vec3 boxMinimum = vec3(0), boxMaximum = vec3(0), projection = vec3(0);
+const mat4 worldToEye = mat4(1);
+#else
 uniform bool wholePicture;
 uniform vec3 boxMinimum, boxMaximum;  // relative to the eye, along the world's axes
 uniform mat4 worldToEye;
 uniform vec3 projection;  // x and y scale, near distance
+#endif
 
 void main() {
     if (wholePicture) {
