@@ -1,5 +1,5 @@
 #!/bin/bash
-# Runs the portable file (`make portable`) in bare Debian systems that have nothing but Mesa.
+# Runs the portable file (`make portable`) in bare Debian systems that have nothing but Mesa, and in Debian 11, whose C library is too old.
 #
 #   tests/elsewhere/portable_file.sh ARCHIVE [RELEASE…]        default: bookworm trixie
 #
@@ -21,14 +21,25 @@ withoutMesa() {
     [[ "$(wc --lines <<< "$said")" == 1 && "$said" == *libEGL* ]]
 }
 
+tooOld() {
+    local said code=0
+    said="$(program env 2>&1)" || code=$?
+    echo "$said"
+    [[ "$code" == 3 && "$(wc --lines <<< "$said")" == 1 && "$said" == *'glibc 2.31'*'2.36'* ]]
+}
+
 # The window stays open until it is closed: ten seconds later.
 window() {
     inside 'cd /srv && code=0; timeout 10 xvfb-run --auto-servernum /opt/*/bin/dustbench view || code=$?; test "$code" = 124'
 }
 
-for each in "$@"; do
-    bare "$each" build/elsewhere
+unpacked() {
+    bare "$1" build/elsewhere
     step unpack bash -c "zstd --quiet --decompress --stdout '$archive' | tar --extract --directory '$root/opt'"
+}
+
+for each in "$@"; do
+    unpacked "$each"
     step without-mesa withoutMesa
     step mesa installed libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri
     step env program env
@@ -41,3 +52,6 @@ for each in "$@"; do
     step display installed xvfb xauth
     step view window
 done
+
+unpacked bullseye
+step old-glibc tooOld
