@@ -36,6 +36,7 @@ void AdaptiveTransparency::draw(const Frame& frame, gpu::Layer& layer) {
 }
 
 void AdaptiveTransparency::report(const Frame&, Facts& facts) const {
+    if (pass_) pass_->requireWholeLoops();
     facts.set("bits_per_pixel", static_cast<double>(nodes_ * bitsPerNode));
     facts.set("bytes_per_fragment", std::int64_t{0});
 }

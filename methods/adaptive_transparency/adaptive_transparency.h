@@ -40,6 +40,7 @@ class AdaptiveTransparency final : public Method {
     void draw(const Frame& frame, gpu::Layer& layer) override;
     void volume(const Frame& frame, VolumeVisitor& visitor) const override { visitor.puffs(frame.dust); }
     void report(const Frame& frame, Facts& facts) const override;
+    [[nodiscard]] bool reportsAtEnd() const override { return true; }
     [[nodiscard]] MemoryReport memory() const override;
     [[nodiscard]] std::int64_t primitives() const override;
 

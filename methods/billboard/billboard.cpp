@@ -113,6 +113,10 @@ void Billboard::volume(const Frame& frame, VolumeVisitor& visitor) const {
     visitor.puffs(shown);
 }
 
+void Billboard::report(const Frame&, Facts&) const {
+    if (tiles_) tiles_->requireWholeLoops("billboard");
+}
+
 MemoryReport Billboard::memory() const {
     MemoryReport report;
     for (const auto& [structure, bytes] : ledger_.entries()) report.push_back({structure, bytes, 0});

@@ -57,6 +57,8 @@ class Billboard final : public Method {
     void update(const Frame& frame) override;
     void draw(const Frame& frame, gpu::Layer& layer) override;
     void volume(const Frame& frame, VolumeVisitor& visitor) const override;
+    void report(const Frame& frame, Facts& facts) const override;
+    [[nodiscard]] bool reportsAtEnd() const override { return true; }
     [[nodiscard]] MemoryReport memory() const override;
     [[nodiscard]] std::int64_t primitives() const override;
 

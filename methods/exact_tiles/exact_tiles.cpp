@@ -93,7 +93,10 @@ void ExactTiles::draw(const Frame& frame, gpu::Layer& layer) {
     layer.colour().bindImage(0, false, true);
     loops_->bind(program);
     program.dispatch(tiles_.columns(), tiles_.rows(), 1);
-    loops_->requireWholeLoops("exact_tiles");
+}
+
+void ExactTiles::report(const Frame&, Facts&) const {
+    if (loops_) loops_->requireWholeLoops("exact_tiles");
 }
 
 MemoryReport ExactTiles::memory() const {

@@ -33,6 +33,8 @@ class ExactTiles final : public Method {
     void update(const Frame& frame) override;
     void draw(const Frame& frame, gpu::Layer& layer) override;
     void volume(const Frame& frame, VolumeVisitor& visitor) const override { visitor.puffs(frame.dust); }
+    void report(const Frame& frame, Facts& facts) const override;
+    [[nodiscard]] bool reportsAtEnd() const override { return true; }
     [[nodiscard]] MemoryReport memory() const override;
     [[nodiscard]] std::int64_t primitives() const override { return static_cast<std::int64_t>(tiles_.puffs().size()); }
 

@@ -285,6 +285,9 @@ TEST(ExactTiles, ShowsAllPuffsOfAPixelOrSaysThatItCannot) {
         ExactTiles method({});
         method.prepare(pile.scene, {}, Cloud::device());
         (void)pile.updateAndDraw(method);
+        const std::vector<FactInfo> none;
+        Facts facts(none, FactOver::lastFrame);
+        method.report(pile.frame(), facts);
     } catch (const InputError& error) {
         message = error.what();
     }

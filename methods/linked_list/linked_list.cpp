@@ -104,10 +104,10 @@ void LinkedList::sortAndBlend(const Frame& frame, gpu::Layer& layer) {
     layer.colour().bindImage(0, false, true);
     const auto groups = [](int pixels) { return (pixels + groupPixels - 1) / groupPixels; };
     made->dispatch(groups(width_), groups(height_), 1);
-    loops_->requireWholeLoops("linked_list");
 }
 
 void LinkedList::report(const Frame&, Facts& facts) const {
+    if (loops_) loops_->requireWholeLoops("linked_list");
     if (width_ == 0) return;
     const double pixels = static_cast<double>(width_) * height_;
     const double fragmentBits = 8.0 * (linkBytes + valueBytes);

@@ -167,7 +167,12 @@ TEST(LinkedList, BlendsPuffsAtOneDepthInTheOrderOfTheirNumbers) {
 
 std::string messageOf(Cloud& cloud, std::int64_t fragmentsPerPixel) {
     try {
-        (void)cloud.drawn(Puff::surface, 3.5, fragmentsPerPixel);
+        LinkedList method(Puff::surface, 3.5, fragmentsPerPixel);
+        method.prepare(cloud.scene, {}, Cloud::device());
+        (void)cloud.updateAndDraw(method);
+        const MethodInfo info = describe();
+        Facts facts(info.facts, FactOver::lastFrame);
+        method.report(cloud.frame(), facts);
     } catch (const InputError& error) {
         return error.what();
     }

@@ -177,6 +177,7 @@ void MomentOit::addQuantisedMoments(const Frame& frame, const WarpedDepth& range
 }
 
 void MomentOit::report(const Frame&, Facts& facts) const {
+    if (quantisedPass_) quantisedPass_->requireWholeLoops();
     const std::size_t colours = gpu::bytesPerTexel(gpu::Format::rgba32F);
     std::size_t moments = isQuantised() ? storedBytes(settings_.kind) : 0;
     for (const gpu::Format format : momentFormats(settings_.kind)) moments += gpu::bytesPerTexel(format);

@@ -34,6 +34,7 @@ void MultiLayer::draw(const Frame& frame, gpu::Layer& layer) {
 }
 
 void MultiLayer::report(const Frame&, Facts& facts) const {
+    if (pass_) pass_->requireWholeLoops();
     facts.set("bits_per_pixel", static_cast<double>(layers_ * bitsPerLayer));
     facts.set("bytes_per_fragment", std::int64_t{0});
 }

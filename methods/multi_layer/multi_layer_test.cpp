@@ -251,7 +251,12 @@ TEST(MultiLayer, ShowsAllPuffsOfAPixelOrSaysThatItCannot) {
     }
     std::string message;
     try {
-        (void)pile.drawn(Puff::surface, 4);
+        MultiLayer method(Puff::surface, wide, 4);
+        method.prepare(pile.scene, {}, Cloud::device());
+        (void)pile.updateAndDraw(method);
+        const MethodInfo info = describe();
+        Facts facts(info.facts, FactOver::lastFrame);
+        method.report(pile.frame(), facts);
     } catch (const InputError& error) {
         message = error.what();
     }

@@ -387,7 +387,8 @@ TEST(WaveletOit, DrawsTheSameAgainAndFollowsACloudThatComesAndGoes) {
         method->report(few.frame(), facts);
         const std::int64_t bits = 16 * 32 + 160 + (pixel ? 64 : 0);
         EXPECT_EQ(std::get<std::int64_t>(facts.value("bits_per_pixel").value()), bits);
-        EXPECT_EQ(std::get<std::int64_t>(facts.value("bytes_per_fragment").value()), 3 * 64 + 2 * 20 + (pixel ? 32 : 0));
+        EXPECT_EQ(std::get<std::int64_t>(facts.value("bytes_per_fragment").value()),
+                  3 * 64 + 2 * 20 + (pixel ? 32 : 0));
         std::size_t bytes = 0;
         for (const MemoryUse& use : method->memory())
             if (use.structure != "puffs") bytes += use.gpuBytes;

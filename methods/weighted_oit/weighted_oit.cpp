@@ -117,6 +117,7 @@ void WeightedOit::draw(const Frame& frame, gpu::Layer& layer) {
 }
 
 void WeightedOit::report(const Frame&, Facts& facts) const {
+    if (tiles_) tiles_->requireWholeLoops("weighted_oit");
     const std::size_t bytes =
         gpu::bytesPerTexel(formatOf(settings_.accumulation)) + gpu::bytesPerTexel(formatOf(settings_.revealage));
     facts.set("bits_per_pixel", static_cast<std::int64_t>(8 * bytes));

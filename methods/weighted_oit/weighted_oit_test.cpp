@@ -362,5 +362,25 @@ TEST(WeightedOit, DrawsTheSamePictureInTiles) {
     EXPECT_THROW(WeightedOit({.revealage = Revealage::r8, .raster = Raster::tiles}), InputError);
 }
 
+/// llvmpipe ends the loops of an invocation after 65,535 iterations: unnoticed, pixels would show a part of the puffs.
+TEST(WeightedOit, InTilesShowsAllPuffsOfAPixelOrSaysThatItCannot) {
+    Cloud pile(70'000, false);
+    for (std::size_t i = 0; i < pile.dust.size(); ++i) {
+        pile.dust.x[i] = 0, pile.dust.y[i] = 1.2f, pile.dust.z[i] = -8;
+        pile.dust.radius[i] = 0.1f, pile.dust.opacity[i] = 1e-4f;
+    }
+    const MethodInfo info = describe();
+    for (const Raster raster : {Raster::hardware, Raster::tiles}) {
+        WeightedOit method({.raster = raster});
+        method.prepare(pile.scene, {}, Cloud::device());
+        (void)pile.updateAndDraw(method);
+        Facts facts(info.facts, FactOver::lastFrame);
+        if (raster == Raster::tiles && Cloud::device().isSoftware())
+            EXPECT_THROW(method.report(pile.frame(), facts), InputError);
+        else
+            EXPECT_NO_THROW(method.report(pile.frame(), facts));
+    }
+}
+
 }  // namespace
 }  // namespace dustbench::weighted_oit

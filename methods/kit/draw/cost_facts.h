@@ -10,7 +10,8 @@ namespace dustbench::draw {
             "storage of the intermediate targets per pixel of the picture; of lists, the part in use"};
 }
 
-/// By the formats and passes, not measured. A read-modify-write counts twice; what stays in an invocation does not count.
+/// By the formats and passes, not measured. A read-modify-write counts twice; what stays in an invocation does not
+/// count.
 [[nodiscard]] inline FactInfo bytesPerFragment() {
     return {"bytes_per_fragment", "byte", FactOver::lastFrame,
             "bytes that a fragment reads from and writes to the targets of all passes, by their formats; caches save a "

@@ -15,16 +15,15 @@ LoopLimit::LoopLimit(gpu::Device& device)
 void LoopLimit::bind(gpu::Program& program) {
     constexpr int moreThanOne = 4;
     program.set("probeIterations", moreThanOne);
-    unfinished_.clear();
     unfinished_.bindStorage(6);
 }
 
-void LoopLimit::requireWholeLoops(std::string_view what) const {
+void LoopLimit::requireWholeLoops(std::string_view method) const {
     if (!device_.isSoftware()) return;
     std::array<std::uint32_t, 1> pixels{};
     unfinished_.read(std::span<std::uint32_t>(pixels));
     if (pixels[0] > 0)
-        throw InputError(std::string(what) + ": got too many puffs in " + std::to_string(pixels[0]) +
+        throw InputError(std::string(method) + ": got too many puffs in " + std::to_string(pixels[0]) +
                          " pixels for this driver, which ends the loops of a shader after 65,535 iterations; use fewer "
                          "particles, or a GPU");
 }

@@ -17,11 +17,11 @@ class DUSTBENCH_API LoopLimit {
  public:
     explicit LoopLimit(gpu::Device& device);
 
-    /// Before the pass runs.
+    /// Before each pass.
     void bind(gpu::Program& program);
-    /// After it, on software renderers only: waits for the pass. Throws InputError if a pixel is unfinished; `what`
-    /// begins the message, `linked_list: the list of fragments`.
-    void requireWholeLoops(std::string_view what) const;
+    /// For Method::report of methods that report at the end; waits for the passes, on software renderers only. Throws
+    /// InputError if a pixel of any pass so far is unfinished; `method` begins the message.
+    void requireWholeLoops(std::string_view method) const;
 
  private:
     gpu::Device& device_;

@@ -26,10 +26,11 @@ TileBillboards::TileBillboards(gpu::Device& device, const BillboardStyle& style)
              {draw_shaders::billboard_quad_glsl, draw_shaders::quad_pixels_glsl, draw_shaders::billboard_pixels_glsl},
              tileDefinitions(style)),
       blend_(device, "billboards in tiles",
-             {draw_shaders::error_function_glsl, draw_shaders::tile_pyramid_glsl, draw_shaders::tile_shapes_glsl,
-              draw_shaders::billboard_quad_glsl, draw_shaders::quad_pixels_glsl, draw_shaders::billboard_pixels_glsl,
-              draw_shaders::billboard_tiles_comp},
-             tileDefinitions(style)) {}
+             {draw_shaders::error_function_glsl, draw_shaders::loop_limit_glsl, draw_shaders::tile_pyramid_glsl,
+              draw_shaders::tile_shapes_glsl, draw_shaders::billboard_quad_glsl, draw_shaders::quad_pixels_glsl,
+              draw_shaders::billboard_pixels_glsl, draw_shaders::billboard_tiles_comp},
+             tileDefinitions(style)),
+      loops_(device) {}
 
 void TileBillboards::prepare(gpu::Program& program, const Billboards& billboards, const scene::View& view) const {
     const glm::mat4 eyeToClip = view.eyeToClip();
@@ -53,6 +54,7 @@ void TileBillboards::draw(const Billboards& billboards, const scene::View& view,
     prepare(blend_, billboards, view);
     blend_.set("puffColour", colourOfAll);
     lists_.bind();
+    loops_.bind(blend_);
     layer.sceneDepth().bind(0);
     layer.colour().bindImage(0, false, true);
     blend_.dispatch(lists_.columns(), lists_.rows(), 1);

@@ -12,6 +12,7 @@
 #include "methods/contract/stage_clock.h"
 #include "methods/contract/view.h"
 #include "methods/kit/draw/billboards.h"
+#include "methods/kit/draw/loop_limit.h"
 #include "methods/kit/draw/tile_lists.h"
 #include "methods/kit/gpu/layer.h"
 #include "methods/kit/gpu/program.h"
@@ -27,6 +28,8 @@ class DUSTBENCH_API TileBillboards {
     /// the stage: `bin`, the lists of tiles; `blend`.
     void draw(const Billboards& billboards, const scene::View& view, const glm::vec3& colourOfAll,
               const gpu::Layer& layer, const StageClock& clock);
+    /// As LoopLimit's.
+    void requireWholeLoops(std::string_view method) const { loops_.requireWholeLoops(method); }
     [[nodiscard]] std::size_t bytes() const { return lists_.bytes(); }
 
  private:
@@ -34,6 +37,7 @@ class DUSTBENCH_API TileBillboards {
 
     TileLists lists_;
     gpu::Program blend_;
+    LoopLimit loops_;
 };
 
 }  // namespace dustbench::draw

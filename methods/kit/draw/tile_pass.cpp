@@ -51,7 +51,6 @@ void TilePass::run(const PuffQuads& puffs, gpu::Program& program, const gpu::Lay
     layer.sceneDepth().bind(0);
     layer.colour().bindImage(0, false, true);
     program.dispatch(tiles(layer.width()), tiles(layer.height()), 1);
-    loops_.requireWholeLoops(name_);
 }
 
 }  // namespace dustbench::draw

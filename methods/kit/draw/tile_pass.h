@@ -27,8 +27,10 @@ class DUSTBENCH_API TilePass {
 
     /// The program for the puffs uploaded last, compiled on first use, with its uniforms set: for the method's own.
     [[nodiscard]] gpu::Program& begin(const PuffQuads& puffs, const Frame& frame);
-    /// Visits the puffs of all tiles of the layer. Throws InputError as LoopLimit does.
+    /// Visits the puffs of all tiles of the layer.
     void run(const PuffQuads& puffs, gpu::Program& program, const gpu::Layer& layer);
+    /// As LoopLimit's.
+    void requireWholeLoops() const { loops_.requireWholeLoops(name_); }
 
  private:
     gpu::Device& device_;

@@ -14,7 +14,8 @@ const std::vector<gpu::ShaderFile> placesOfPuffs{draw_shaders::puff_quad_glsl, d
 gpu::Program addingProgram(gpu::Device& device, const char* name, std::vector<gpu::ShaderFile> files,
                            const std::map<std::string, std::string>& definitions) {
     std::vector<gpu::ShaderFile> all{draw_shaders::error_function_glsl, draw_shaders::puff_ray_glsl,
-                                     draw_shaders::tile_pyramid_glsl, draw_shaders::tile_shapes_glsl};
+                                     draw_shaders::loop_limit_glsl, draw_shaders::tile_pyramid_glsl,
+                                     draw_shaders::tile_shapes_glsl};
     all.insert(all.end(), placesOfPuffs.begin(), placesOfPuffs.end());
     all.insert(all.end(), files.begin(), files.end());
     return {device, std::string(name) + " in tiles", std::span<const gpu::ShaderFile>(all), definitions};
@@ -26,7 +27,8 @@ TilePuffs::TilePuffs(gpu::Device& device, const char* name, std::vector<gpu::Sha
                      const std::map<std::string, std::string>& definitions, double reachDeviations)
     : reach_(reachDeviations),
       lists_(device, name, placesOfPuffs),
-      add_(addingProgram(device, name, std::move(files), definitions)) {}
+      add_(addingProgram(device, name, std::move(files), definitions)),
+      loops_(device) {}
 
 void TilePuffs::prepare(gpu::Program& program, const PuffQuads& puffs, const scene::View& view) const {
     const glm::mat4 clip = view.eyeToClip();
@@ -56,6 +58,7 @@ gpu::Program& TilePuffs::begin(const PuffQuads& puffs, const scene::View& view, 
 void TilePuffs::run(const gpu::Layer& layer, const StageClock& clock) {
     const auto detail = clock.measureDetail("blend");
     lists_.bind();
+    loops_.bind(add_);
     layer.sceneDepth().bind(0);
     layer.colour().bindImage(0, false, true);
     add_.dispatch(lists_.columns(), lists_.rows(), 1);

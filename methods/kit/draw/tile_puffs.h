@@ -13,6 +13,7 @@
 
 #include "methods/contract/stage_clock.h"
 #include "methods/contract/view.h"
+#include "methods/kit/draw/loop_limit.h"
 #include "methods/kit/draw/puff_quads.h"
 #include "methods/kit/draw/tile_lists.h"
 #include "methods/kit/gpu/layer.h"
@@ -32,6 +33,8 @@ class DUSTBENCH_API TilePuffs {
                                       const StageClock& clock);
     /// Runs the shader: the detail `blend`.
     void run(const gpu::Layer& layer, const StageClock& clock);
+    /// As LoopLimit's.
+    void requireWholeLoops(std::string_view method) const { loops_.requireWholeLoops(method); }
     [[nodiscard]] std::size_t bytes() const { return lists_.bytes(); }
 
  private:
@@ -40,6 +43,7 @@ class DUSTBENCH_API TilePuffs {
     double reach_;
     TileLists lists_;
     gpu::Program add_;
+    LoopLimit loops_;
 };
 
 }  // namespace dustbench::draw

@@ -27,7 +27,7 @@ shared uint takenOf[maximumLevels];
 shared uint merged[shapesAtOnce];
 shared uvec2 coveredBy[shapesAtOnce];  // pixels of the shape in a slot
 shared uint shapesIn[4];               // slots of shapes in the lower four rows, 32 bits each, then in the upper four
-shared uint unfinished;                // whether a pixel needs more
+shared uint wanting;                   // whether a pixel needs more
 
 /// For prepareShape: a bit for each pixel that the shape covers, row by row (quad_pixels.glsl).
 void cover(uint slot, uvec2 pixels) {
@@ -110,24 +110,23 @@ bool drawTile() {
     openLists(tile, own);
     if (listCount == 0u) return false;
     bool more = true;
-    // llvmpipe ends a loop after 65,535 iterations.
-    while (more)
-        for (int batch = 0; batch < 32768 && more; ++batch) {
-            if (own < 4u) shapesIn[own] = 0u;
-            if (own == 0u) unfinished = 0u;
-            uint shape, found = nextShapes(own, shape);
-            if (own < found) prepareShape(own, shape, 8 * tile);
-            if (needsMore()) unfinished = 1u;
-            barrier();
-            bool wanted = unfinished > 0u;
-            more = found == shapesAtOnce && wanted;
-            for (uint word = 0u; wanted && word < 2u; ++word)
-                for (uint left = shapesIn[2u * rows + word]; left != 0u; left &= left - 1u) {
-                    uint slot = 32u * word + uint(findLSB(left));
-                    uint pixels = rows == 0u ? coveredBy[slot].x : coveredBy[slot].y;
-                    if ((pixels & bit) != 0u) drawShape(slot);
-                }
-            barrier();
-        }
+    while (more) {
+        if (own < 4u) shapesIn[own] = 0u;
+        if (own == 0u) wanting = 0u;
+        uint shape, found = nextShapes(own, shape);
+        if (own < found) prepareShape(own, shape, 8 * tile);
+        if (needsMore()) wanting = 1u;
+        barrier();
+        bool wanted = wanting > 0u;
+        more = found == shapesAtOnce && wanted;
+        for (uint word = 0u; wanted && word < 2u; ++word)
+            for (uint left = shapesIn[2u * rows + word]; left != 0u; left &= left - 1u) {
+                uint slot = 32u * word + uint(findLSB(left));
+                uint pixels = rows == 0u ? coveredBy[slot].x : coveredBy[slot].y;
+                if ((pixels & bit) != 0u) drawShape(slot);
+            }
+        barrier();
+    }
+    if (isCutShort()) atomicAdd(unfinished, 1u);
     return true;
 }
