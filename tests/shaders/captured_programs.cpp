@@ -73,7 +73,7 @@ struct Product {
 const std::vector<Product> products{
     {"billboard", {}, {"puff", "soft", "facing"}, true},
     {"billboard", {{"alpha", "plain"}}, {"puff", "soft"}, true},
-    {"billboard", {{"raster", "tiles"}}, {"alpha", "soft", "facing"}, true},
+    {"billboard", {{"raster", "tiles"}}, {"alpha", "soft", "facing"}},
     {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"advection", "limit", "velocity_at"}},
     {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"pressure", "vorticity"}},
     {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"fluid", "shadow_cells"}},
@@ -89,8 +89,7 @@ const std::vector<Product> products{
     {"multi_layer", {}, {"puff"}, true},
     {"adaptive_transparency", {}, {"puff"}, true},
     {"weighted_oit", {}, {"weight"}, true},
-    {"weighted_oit", {{"raster", "tiles"}}, {"weight"}, true},
-    {"weighted_oit", {{"raster", "tiles"}}, {"puff"}, true},
+    {"weighted_oit", {{"raster", "tiles"}}, {"puff"}},
     {"weighted_oit", {}, {"puff", "accumulation", "revealage"}, true},
     {"offscreen_particles", {}, {"upsampling", "edges"}, true},
     {"stochastic_transparency", {}, {"puff", "stratified", "alpha_correction"}, true},
