@@ -39,8 +39,7 @@ namespace {
 
 using Values = std::map<std::string, std::string>;
 
-constexpr int width = 32, height = 24;
-constexpr int frames = 2;
+constexpr int width = 32, height = 24, frames = 2;
 
 /// Parameter values that select shaders. All values of choices and switches are tried without being listed here.
 const std::map<std::string, std::vector<std::string>> decidingValues{
