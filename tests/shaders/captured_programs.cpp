@@ -39,8 +39,7 @@ namespace {
 
 using Values = std::map<std::string, std::string>;
 
-constexpr int width = 32, height = 24;
-constexpr int frames = 2;
+constexpr int width = 32, height = 24, frames = 2;
 
 /// Parameter values that select shaders. All values of choices and switches are tried without being listed here.
 const std::map<std::string, std::vector<std::string>> decidingValues{
@@ -73,7 +72,7 @@ struct Product {
 const std::vector<Product> products{
     {"billboard", {}, {"puff", "soft", "facing"}, true},
     {"billboard", {{"alpha", "plain"}}, {"puff", "soft"}, true},
-    {"billboard", {{"raster", "tiles"}}, {"alpha", "soft", "facing"}, true},
+    {"billboard", {{"raster", "tiles"}}, {"alpha", "soft", "facing"}},
     {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"advection", "limit", "velocity_at"}},
     {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"pressure", "vorticity"}},
     {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"fluid", "shadow_cells"}},
@@ -91,8 +90,7 @@ const std::vector<Product> products{
     {"multi_layer", {}, {"puff"}, true},
     {"adaptive_transparency", {}, {"puff"}, true},
     {"weighted_oit", {}, {"weight"}, true},
-    {"weighted_oit", {{"raster", "tiles"}}, {"weight"}, true},
-    {"weighted_oit", {{"raster", "tiles"}}, {"puff"}, true},
+    {"weighted_oit", {{"raster", "tiles"}}, {"puff"}},
     {"weighted_oit", {}, {"puff", "accumulation", "revealage"}, true},
     {"offscreen_particles", {}, {"upsampling", "edges"}, true},
     {"stochastic_transparency", {}, {"puff", "stratified", "alpha_correction"}, true},

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <span>
-#include <utility>
 
 #include "draw_shaders.h"
 #include "methods/contract/errors.h"
@@ -33,8 +32,8 @@ TileLists::Pairs::Pairs(gpu::Device& device, std::uint32_t number)
       scan(device, number),
       sort(device, number * tilesOfShape) {}
 
-TileLists::TileLists(gpu::Device& device, const char* name, std::vector<gpu::ShaderFile> pieces,
-                     std::map<std::string, std::string> definitions)
+TileLists::TileLists(gpu::Device& device, const char* name, const std::vector<gpu::ShaderFile>& pieces,
+                     const std::map<std::string, std::string>& definitions)
     : device_(device),
       name_(name),
       count_(pairProgram(device, name, pieces, definitions, false)),

@@ -34,8 +34,8 @@ class DUSTBENCH_API TileLists {
 
     /// `pieces` (.glsl) define `ivec4 pixelsOf(uint shape)`, see tile_pairs.comp. They may use storage bindings 0, 6
     /// and 7.
-    TileLists(gpu::Device& device, const char* name, std::vector<gpu::ShaderFile> pieces,
-              std::map<std::string, std::string> definitions = {});
+    TileLists(gpu::Device& device, const char* name, const std::vector<gpu::ShaderFile>& pieces,
+              const std::map<std::string, std::string>& definitions = {});
 
     /// Shapes on the GPU: their number is `number`, or word 0 of `numberOnGpu`, which then is at most `number`.
     struct Shapes {

@@ -1,33 +1,33 @@
 #include "methods/kit/draw/tile_puffs.h"
 
 #include <span>
-#include <utility>
 
 #include "draw_shaders.h"
 
 namespace dustbench::draw {
 namespace {
 
-const std::vector<gpu::ShaderFile> placesOfPuffs{draw_shaders::puff_quad_glsl, draw_shaders::quad_pixels_glsl,
-                                                 draw_shaders::puff_pixels_glsl};
+std::vector<gpu::ShaderFile> placesOfPuffs() {
+    return {draw_shaders::puff_quad_glsl, draw_shaders::quad_pixels_glsl, draw_shaders::puff_pixels_glsl};
+}
 
-gpu::Program addingProgram(gpu::Device& device, const char* name, std::vector<gpu::ShaderFile> files,
+gpu::Program addingProgram(gpu::Device& device, const char* name, const std::vector<gpu::ShaderFile>& files,
                            const std::map<std::string, std::string>& definitions) {
     std::vector<gpu::ShaderFile> all{draw_shaders::error_function_glsl, draw_shaders::puff_ray_glsl,
                                      draw_shaders::loop_limit_glsl, draw_shaders::tile_pyramid_glsl,
                                      draw_shaders::tile_shapes_glsl};
-    all.insert(all.end(), placesOfPuffs.begin(), placesOfPuffs.end());
-    all.insert(all.end(), files.begin(), files.end());
+    for (const gpu::ShaderFile& file : placesOfPuffs()) all.push_back(file);
+    for (const gpu::ShaderFile& file : files) all.push_back(file);
     return {device, std::string(name) + " in tiles", std::span<const gpu::ShaderFile>(all), definitions};
 }
 
 }  // namespace
 
-TilePuffs::TilePuffs(gpu::Device& device, const char* name, std::vector<gpu::ShaderFile> files,
+TilePuffs::TilePuffs(gpu::Device& device, const char* name, const std::vector<gpu::ShaderFile>& files,
                      const std::map<std::string, std::string>& definitions, double reachDeviations)
     : reach_(reachDeviations),
-      lists_(device, name, placesOfPuffs),
-      add_(addingProgram(device, name, std::move(files), definitions)),
+      lists_(device, name, placesOfPuffs()),
+      add_(addingProgram(device, name, files, definitions)),
       loops_(device) {}
 
 void TilePuffs::prepare(gpu::Program& program, const PuffQuads& puffs, const scene::View& view) const {

@@ -24,7 +24,7 @@ namespace dustbench::draw {
 class DUSTBENCH_API TilePuffs {
  public:
     /// `files`: the compute shader and its pieces, in addition to puff_ray.glsl. `reachDeviations`: as for PuffQuads.
-    TilePuffs(gpu::Device& device, const char* name, std::vector<gpu::ShaderFile> files,
+    TilePuffs(gpu::Device& device, const char* name, const std::vector<gpu::ShaderFile>& files,
               const std::map<std::string, std::string>& definitions, double reachDeviations);
 
     /// Lists the puffs that `puffs` holds, for a layer: the stage's detail `bin`. Returns the shader, for its own
