@@ -197,7 +197,10 @@ void FrameRunner::collectCounts() {
         pending.number.read(std::span(&number, 1));
         FrameRecord& record = records_[pending.record];
         if (pending.isOfParticles) record.particles = number;
-        if (!pending.isOfParticles || record.primitives == Method::onePerPuff) record.primitives = number;
+        if (!pending.isOfParticles)
+            record.primitives = number;
+        else if (record.primitives < 0)
+            record.primitives *= -std::int64_t{number};
     }
     pendingCounts_.clear();
 }

@@ -164,7 +164,7 @@ std::int64_t MethodHost::primitives() const {
         return number;
     }
     const std::int64_t drawn = method_->primitives();
-    return drawn == Method::onePerPuff ? static_cast<std::int64_t>(world_.dust().size()) : drawn;
+    return drawn < 0 ? -drawn * static_cast<std::int64_t>(world_.dust().size()) : drawn;
 }
 
 std::int64_t MethodHost::cpuBytes() const {

@@ -79,8 +79,8 @@ class DUSTBENCH_API Method {
     [[nodiscard]] virtual bool reportsAtEnd() const { return false; }
     /// CPU and GPU bytes held by the method, by structure.
     [[nodiscard]] virtual MemoryReport memory() const { return {}; }
-    /// Number of primitives (billboards, voxels, rays …) that the last `draw` submitted to the GPU; `onePerPuff`: as
-    /// many as the shared dust has puffs, which only the GPU knows.
+    /// Number of primitives (billboards, voxels, rays …) that the last `draw` submitted to the GPU. −n: n for each puff
+    /// of the shared dust, whose number only the GPU knows.
     static constexpr std::int64_t onePerPuff = -1;
     [[nodiscard]] virtual std::int64_t primitives() const { return 0; }
     /// If only the GPU knows that number: a buffer with it in the first word. `primitives` is then not called.

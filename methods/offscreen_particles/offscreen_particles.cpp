@@ -45,7 +45,19 @@ void OffscreenParticles::prepare(const scene::Scene&, const RunSetup&, gpu::Devi
                              upsampleDefinitions(settings_));
 }
 
+void OffscreenParticles::updateOnGpu(const Frame& frame) {
+    const gpu::Buffer* order = nullptr;
+    {
+        const auto timing = frame.clock.measure(Stage::sort);
+        if (!gpuOrder_) gpuOrder_.emplace(*device_);
+        order = &gpuOrder_->farToNear(*frame.gpuDust, glm::vec3(frame.view.camera.eye));
+    }
+    const auto timing = frame.clock.measure(Stage::upload);
+    quads_->gather(*frame.gpuDust, order);
+}
+
 void OffscreenParticles::update(const Frame& frame) {
+    if (frame.gpuDust) return updateOnGpu(frame);
     const Puffs& dust = frame.dust;
     std::span<const std::uint32_t> order;
     {
@@ -115,12 +127,13 @@ MemoryReport OffscreenParticles::memory() const {
     MemoryReport report;
     for (const auto& [structure, bytes] : ledger_.entries()) report.push_back({structure, bytes, 0});
     if (quads_) report.push_back({"billboards", 0, quads_->gpuBytes()});
+    if (gpuOrder_) report.push_back({"depth order", 0, gpuOrder_->bytes()});
     report.push_back({"targets", 0, targetBytes()});
     return report;
 }
 
 std::int64_t OffscreenParticles::primitives() const {
-    return quads_ ? static_cast<std::int64_t>(quads_->count()) : 0;
+    return quads_ ? quads_->primitives() : 0;
 }
 
 MethodInfo describe() {
@@ -136,6 +149,7 @@ MethodInfo describe() {
         .choice("edges", Edges::mixed, edgeKinds,
                 "pixels at depth edges: drawn again at full resolution, or enlarged like all others");
     info.facts = {draw::bitsPerPixel()};
+    info.takesGpuDust = [](const ParameterValues&) { return true; };
     info.create = [](const ParameterValues& values) {
         return std::make_unique<OffscreenParticles>(Settings{values.choice("scale", scales),
                                                              values.choice("upsampling", upsamplings),

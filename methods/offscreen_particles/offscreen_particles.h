@@ -13,6 +13,7 @@
 #include "methods/contract/method.h"
 #include "methods/kit/draw/billboards.h"
 #include "methods/kit/draw/depth_sort.h"
+#include "methods/kit/draw/gpu_depth_order.h"
 #include "methods/kit/gpu/framebuffer.h"
 #include "methods/kit/gpu/layer.h"
 #include "methods/kit/gpu/program.h"
@@ -74,6 +75,7 @@ class OffscreenParticles final : public Method {
     [[nodiscard]] std::int64_t primitives() const override;
 
  private:
+    void updateOnGpu(const Frame& frame);
     void fit(const gpu::Layer& layer);
     void upload(const Puffs& dust, std::span<const std::uint32_t> order);
     [[nodiscard]] std::size_t targetBytes() const;
@@ -85,6 +87,7 @@ class OffscreenParticles final : public Method {
     gpu::Program shrinkDepth_, edgeDepth_, upsample_;
     std::optional<gpu::VertexArray> noVertices_;
     std::optional<draw::Billboards> quads_;
+    std::optional<draw::GpuDepthOrder> gpuOrder_;  ///< made for the first dust on the GPU
     std::optional<Target> small_, edges_;
 };
 

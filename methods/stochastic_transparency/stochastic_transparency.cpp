@@ -36,7 +36,7 @@ void StochasticTransparency::prepare(const scene::Scene&, const RunSetup& setup,
 
 void StochasticTransparency::update(const Frame& frame) {
     const auto timing = frame.clock.measure(Stage::upload);
-    quads_->upload(frame.dust);
+    frame.gpuDust ? quads_->gather(*frame.gpuDust) : quads_->upload(frame.dust);
 }
 
 void StochasticTransparency::fitSamples(int width, int height) {
@@ -87,7 +87,7 @@ MemoryReport StochasticTransparency::memory() const {
 }
 
 std::int64_t StochasticTransparency::primitives() const {
-    return quads_ ? 2 * static_cast<std::int64_t>(quads_->count()) : 0;
+    return quads_ ? 2 * quads_->primitives() : 0;
 }
 
 MethodInfo describe() {
@@ -104,6 +104,7 @@ MethodInfo describe() {
         .real("reach", 3.5, 2, 6, "deviations",
               "half-side of a puff's quad in standard deviations; exp(-reach^2/2) of its depth is cut off");
     info.facts = {draw::bitsPerPixel(), draw::bytesPerFragment()};
+    info.takesGpuDust = [](const ParameterValues&) { return true; };
     info.create = [](const ParameterValues& values) {
         return std::make_unique<StochasticTransparency>(Settings{.samples = static_cast<int>(values.integer("samples")),
                                                                  .stratified = values.boolean("stratified"),
