@@ -115,6 +115,7 @@ TEST(TileLists, ListEveryShapeThatReachesIntoATile) {
 TEST(TileLists, AreExactForSmallShapes) {
     BoxLists lists;
     std::vector<PixelBox> boxes;
+    boxes.reserve(64);
     for (int i = 0; i < 64; ++i) boxes.push_back({i, 2 * i, i + i % 8, 2 * i + 7});
     const auto found = lists.listed(boxes, 128, 256);
     std::size_t listed = 0, expected = 0;
