@@ -133,6 +133,7 @@ TEST(Billboard, DrawsTheSamePictureInTiles) {
     }
     moment.setWall(15, 100);
     using Values = std::vector<std::pair<std::string, std::string>>;
+    const float tolerance = Moment::device().isSoftware() ? 1e-5f : 1e-2f;  // GPUs round places within a quad
     for (Values values :
          {Values{}, Values{{"sort", "none"}, {"soft", "true"}}, Values{{"sort", "quicksort"}, {"facing", "viewplane"}},
           Values{{"alpha", "plain"}, {"opacity", "age"}}}) {
@@ -143,7 +144,7 @@ TEST(Billboard, DrawsTheSamePictureInTiles) {
         std::size_t different = 0;  // at the edges of quads, see the tests of TileBillboards
         for (std::size_t i = 0; i < tiles.pixels.size(); ++i)
             for (int c = 0; c < 4; ++c)
-                different += std::abs(tiles.pixels[i][c] - hardware.pixels[i][c]) > 1e-5f ? 1 : 0;
+                different += std::abs(tiles.pixels[i][c] - hardware.pixels[i][c]) > tolerance ? 1 : 0;
         EXPECT_LE(different, 40u);
         EXPECT_LT(largestDifference(tiles, hardware, false), 0.02);
         EXPECT_EQ(method->primitives(), 300);

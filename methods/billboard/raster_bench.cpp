@@ -105,8 +105,8 @@ class RasterFrames {
     pictures::Image draw(Raster raster) {
         Billboard method({.raster = raster});
         method.prepare(scene_, {}, draw::TestCanvas::device());
-        method.update(frame({}));
-        return canvas_.picture([&](gpu::Layer& layer) { method.draw(frame({}), layer); });
+        method.update(frame(StageClock()));
+        return canvas_.picture([&](gpu::Layer& layer) { method.draw(frame(StageClock()), layer); });
     }
     /// Medians by stage; `frame`: the whole.
     std::map<std::string, double> measure(Raster raster) {
