@@ -79,6 +79,11 @@ std::vector<particles::NamedParts> systemsOf(const ParameterValues& values) {
     return systems;
 }
 
+bool isSame(const scene::View& a, const scene::View& b) {
+    return a.camera.eye == b.camera.eye && a.camera.target == b.camera.target && a.camera.up == b.camera.up &&
+           a.camera.verticalFieldOfView == b.camera.verticalFieldOfView && a.width == b.width && a.height == b.height;
+}
+
 /// Tries the changes on copies of the systems.
 void requirePossible(const std::vector<Change>& changes, const std::vector<particles::NamedParts>& systems) {
     std::vector<std::string> names;
@@ -98,8 +103,9 @@ void requirePossible(const std::vector<Change>& changes, const std::vector<parti
 
 }  // namespace
 
-PluginParticles::PluginParticles(std::vector<particles::NamedParts> systems, std::vector<Change> changes)
-    : parts_(std::move(systems)), changes_(std::move(changes)) {
+PluginParticles::PluginParticles(std::vector<particles::NamedParts> systems, std::vector<Change> changes,
+                                 const Sight& sight)
+    : parts_(std::move(systems)), changes_(std::move(changes)), sight_(sight) {
     requirePossible(changes_, parts_);
 }
 
@@ -185,11 +191,22 @@ void PluginParticles::shine() {
     sunlight_->shine(casting);
 }
 
-/// The particles of a system in the colours that they show.
-Puffs PluginParticles::shown(const System& system, const Frame& frame, light::LitPuffs& lit) const {
-    const Puffs puffs = system.particles.store();
+/// Particles of a system in the colours that they show.
+Puffs PluginParticles::inLight(const System& system, const Puffs& puffs, const Frame& frame,
+                               light::LitPuffs& lit) const {
     if (!sunlight_ || !scattersLight(system.picture->look())) return puffs;
     return sunlight_->on(puffs, frame.view.camera.eye, lit);
+}
+
+void PluginParticles::uploadSeen(System& system, const Frame& frame) {
+    const auto stepSeconds = static_cast<float>(frame.stepSeconds);
+    Puffs puffs;
+    {
+        const auto timing = frame.clock.measure(Stage::build);
+        puffs = system.seen->of(system.particles.store(), frame.view, system.picture->look(), stepSeconds, sight_);
+        puffs = inLight(system, puffs, frame, system.lit);
+    }
+    system.picture->upload({puffs, glm::vec3(frame.view.camera.eye), stepSeconds}, frame.clock);
 }
 
 void PluginParticles::uploadMarks(System& system) {
@@ -204,7 +221,6 @@ void PluginParticles::uploadMarks(System& system) {
 void PluginParticles::update(const Frame& frame) {
     applyChanges(frame);
     carryEvents();
-    std::vector<Puffs> puffs;
     {
         const auto timing = frame.clock.measure(Stage::simulate);
         for (System& system : systems_)
@@ -216,15 +232,19 @@ void PluginParticles::update(const Frame& frame) {
         now_ = frame.state;
         findLights();
         shine();
-        for (System& system : systems_) puffs.push_back(shown(system, frame, system.lit));
     }
     for (System& system : systems_) uploadMarks(system);
-    for (std::size_t i = 0; i < systems_.size(); ++i)
-        systems_[i].picture->upload({puffs[i], glm::vec3(frame.view.camera.eye), static_cast<float>(frame.stepSeconds)},
-                                    frame.clock);
+    for (System& system : systems_) uploadSeen(system, frame);
+    uploadedFor_ = frame.view;
 }
 
 void PluginParticles::draw(const Frame& frame, gpu::Layer& layer) {
+    // A paused window may draw the same state from elsewhere, where other particles are in sight.
+    if (!isSame(frame.view, uploadedFor_)) {
+        for (System& system : systems_)
+            if (dependsOnView(system.picture->look(), sight_)) uploadSeen(system, frame);
+        uploadedFor_ = frame.view;
+    }
     for (System& system : systems_)
         if (system.marks) system.marks->draw(frame.view, layer);
     for (System& system : systems_) system.picture->draw(frame.view, layer);
@@ -233,7 +253,7 @@ void PluginParticles::draw(const Frame& frame, gpu::Layer& layer) {
 void PluginParticles::volume(const Frame& frame, VolumeVisitor& visitor) const {
     for (const System& system : systems_) {
         light::LitPuffs lit;
-        visitor.puffs(shown(system, frame, lit));
+        visitor.puffs(inLight(system, system.particles.store(), frame, lit));
     }
 }
 
@@ -256,6 +276,9 @@ MemoryReport PluginParticles::memory() const {
         for (const MemoryReport& part : {system.particles.memory(), system.picture->memory()})
             for (const MemoryUse& use : part)
                 report.push_back({system.name + ": " + use.structure, use.cpuBytes, use.gpuBytes});
+    std::size_t seen = 0;
+    for (const System& system : systems_) seen += system.seen->bytes();
+    if (seen > 0) report.push_back({"particles in sight", seen, 0});
     if (sunlight_) {
         std::size_t bytes = sunlight_->bytes();
         for (const System& system : systems_) bytes += system.lit.bytes();
@@ -292,6 +315,9 @@ MethodInfo describe() {
     info.parameters.dataFile("system", "wheel_dust", "particles", ".toml", systemNames(),
                              "file with one or more particle systems to simulate and draw");
     info.parameters.real("size_factor", 1, 1e-3, 1e3, "", "factor on the sizes of all particles");
+    info.parameters.boolean("culling", false, "leaves out particles that are out of sight; the picture stays the same");
+    info.parameters.real("detail_pixels", 0, 0, 64, "pixels",
+                         "thins out particles whose radius covers less, and enlarges the others to it; 0: draws all");
     info.parameters.choice("storage", "file", storageWords(),
                            "how systems keep their particles; array: in columns; list: in a linked list; pool: in a "
                            "linked list that keeps the nodes of the dead; file: as the file says, or array");
@@ -314,7 +340,9 @@ MethodInfo describe() {
     info.takesLights = true;
     info.takesGpuDust = [](const ParameterValues&) { return true; };  // it does not show the shared dust
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
-        return std::make_unique<PluginParticles>(systemsOf(values), values.changes("at"));
+        return std::make_unique<PluginParticles>(
+            systemsOf(values), values.changes("at"),
+            Sight{values.boolean("culling"), static_cast<float>(values.real("detail_pixels"))});
     };
     return info;
 }

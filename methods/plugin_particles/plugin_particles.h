@@ -17,6 +17,7 @@
 #include "methods/kit/particles/part_toml.h"
 #include "methods/kit/particles/particle_system.h"
 #include "methods/plugin_particles/mark_pass.h"
+#include "methods/plugin_particles/seen_particles.h"
 #include "methods/plugin_particles/sunlight.h"
 #include "methods/plugin_particles/system_picture.h"
 
@@ -24,9 +25,10 @@ namespace dustbench::plugin_particles {
 
 class PluginParticles final : public Method {
  public:
-    /// Takes one or more systems. `changes`: sorted by time. Throws InputError if a change will be impossible at its
-    /// time, or an event names a system that does not exist.
-    explicit PluginParticles(std::vector<particles::NamedParts> systems, std::vector<Change> changes = {});
+    /// Takes one or more systems. `changes`: sorted by time. `sight`: which particles are drawn. Throws InputError if a
+    /// change will be impossible at its time, or an event names a system that does not exist.
+    explicit PluginParticles(std::vector<particles::NamedParts> systems, std::vector<Change> changes = {},
+                             const Sight& sight = {});
 
     /// Throws InputError if fewer particles are requested than there are systems, or any number with events that start
     /// particles.
@@ -52,6 +54,7 @@ class PluginParticles final : public Method {
         std::int64_t fixedCount = 0;
         std::string shownAs{};  ///< the render part of `picture`
         std::unique_ptr<SystemPicture> picture{};
+        std::unique_ptr<SeenParticles> seen = std::make_unique<SeenParticles>();
         light::LitPuffs lit{};              ///< colours in sunlight
         std::unique_ptr<MarkPass> marks{};  ///< null: no part is drawn
     };
@@ -61,13 +64,17 @@ class PluginParticles final : public Method {
     void makePicture(System& system);
     void findLights();
     void shine();
-    [[nodiscard]] Puffs shown(const System& system, const Frame& frame, light::LitPuffs& lit) const;
+    [[nodiscard]] Puffs inLight(const System& system, const Puffs& puffs, const Frame& frame,
+                                light::LitPuffs& lit) const;
+    void uploadSeen(System& system, const Frame& frame);
     void uploadMarks(System& system);
 
     std::vector<particles::NamedParts> parts_;  ///< until `prepare`
     std::int64_t askedFor_ = 0;                 ///< number of particles; 0: as in the file
     std::vector<Change> changes_;
     std::size_t applied_ = 0;  ///< number of changes applied
+    Sight sight_;
+    scene::View uploadedFor_;
     std::vector<System> systems_;
     const scene::Scene* scene_ = nullptr;
     gpu::Device* device_ = nullptr;
