@@ -83,6 +83,11 @@ void Billboard::upload(const Puffs& dust, std::span<const float> opacity, std::s
             *value++ = dust.radius[i];
             *value++ = opacity[i];
             if (quads_->framed()) *value++ = frameOf(dust, i, settings_.puff, frames);
+            if (quads_->noisy()) {
+                const auto [noise, metres] =
+                    draw::noiseOf(dust.serial[i], dust.radius[i], glm::vec3(0), settings_.noise);
+                for (const float each : {noise.x, noise.y, noise.z, metres}) *value++ = each;
+            }
             if (layout.coloured) {
                 *value++ = dust.red[i];
                 *value++ = dust.green[i];
@@ -138,12 +143,13 @@ MethodInfo describe() {
                 "meaning of a puff's picture: optical depth, or, as in the paper, a factor on the puff's opacity "
                 "(puff=gaussian is then a circle that fades smoothly)");
     draw::declareOpacity(info.parameters);
+    draw::declareNoise(info.parameters);
     info.parameters.choice("mode", "fixed", {"fixed", "paper"}, "draw by the optical model, or as in the paper")
         .preset("mode", "paper", {{"sort", "quicksort"}, {"puff", "texture"}, {"alpha", "plain"}, {"opacity", "age"}});
-    // Pictures, the opacity by age and the paper's quicksort run on the CPU.
+    // Pictures, noise, the opacity by age and the paper's quicksort run on the CPU.
     info.takesGpuDust = [](const ParameterValues& values) {
         return values.choice("sort", draw::sortKinds) != draw::SortKind::quicksort &&
-               values.choice("puff", puffs) == Puff::gaussian &&
+               values.choice("puff", puffs) == Puff::gaussian && !draw::noiseSettings(values).isOn() &&
                values.choice("opacity", draw::opacityOrigins) == draw::OpacityFrom::dust;
     };
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
@@ -154,6 +160,8 @@ MethodInfo describe() {
         settings.style.plainAlpha = values.choice("alpha", alphas) == Alpha::plain;
         settings.opacity = values.choice("opacity", draw::opacityOrigins);
         settings.youngOpacity = values.real("young_opacity");
+        settings.noise = draw::noiseSettings(values);
+        settings.style.noise = settings.noise.amplitude;
         settings.style.facing = values.choice("facing", draw::facings);
         return std::make_unique<Billboard>(settings);
     };

@@ -73,6 +73,7 @@ struct Product {
 const std::vector<Product> products{
     {"billboard", {}, {"puff", "soft", "facing"}, true},
     {"billboard", {{"alpha", "plain"}}, {"puff", "soft"}, true},
+    {"billboard", {{"noise", "0.5"}}, {"puff", "soft", "alpha"}, true},
     {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"advection", "limit", "velocity_at"}},
     {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"pressure", "vorticity"}},
     {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"fluid", "shadow_cells"}},
@@ -80,6 +81,7 @@ const std::vector<Product> products{
     {"relief", {}, {"march", "shadow"}},
     {"relief", {}, {"state"}},
     {"octree_recursive", {}, {"render", "crossfade"}, true},
+    {"octree_recursive", {{"noise", "0.5"}}, {"render", "crossfade"}, true},
     {"grid_fluid", {{"scheme", "demo"}, {"fluid", "fire"}, {"solver", "opengl"}, {"backend", "gl"}}, {}},
     {"octree_search", {}, {"render", "crossfade"}, true},
     {"voxel_shape", {}, {"render", "blend"}},
