@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the models of meshes/ from simple parts: helicopter.ply, figure.ply, hare.ply. Python 3, standard library only.
+"""Writes the models of meshes/ from simple parts: helicopter.ply, figure.ply, hare.ply,
+cloud.ply. Python 3, standard library only.
 
 Metres, +Y up, +X forward; colours are sRGB bytes, one a vertex. Every part is a closed surface of its own; parts overlap.
 """
@@ -165,8 +166,20 @@ def hare():
     m.write("hare.ply", "our own: a hare of simple parts, in place of the bunny")
 
 
+def cloud():
+    white = (238, 240, 245)
+    m = Model()
+    for centre, radii in (((-0.14, 0.19, 0), (0.16, 0.15, 0.16)), ((0.02, 0.25, 0.02), (0.19, 0.18, 0.18)),
+                          ((0.18, 0.19, -0.01), (0.15, 0.14, 0.15)), ((-0.25, 0.13, 0.03), (0.1, 0.09, 0.1)),
+                          ((0.27, 0.12, 0.03), (0.09, 0.08, 0.09)), ((0.03, 0.13, 0.08), (0.17, 0.11, 0.14)),
+                          ((-0.06, 0.32, -0.05), (0.11, 0.1, 0.11)), ((0.12, 0.32, 0.03), (0.1, 0.09, 0.1))):
+        m.ellipsoid(centre, radii, white)
+    m.write("cloud.ply", "our own: a small cloud of balls")
+
+
 if __name__ == "__main__":
     os.makedirs(os.path.join(HERE, "meshes"), exist_ok=True)
     helicopter()
     figure()
     hare()
+    cloud()

@@ -40,6 +40,8 @@ Billboard::Billboard(const Settings& settings) : settings_(settings), sort_(ledg
     if (settings.raster == Raster::tiles && settings.puff != Puff::gaussian)
         throw InputError("parameter raster: got tiles with puff=" + std::string(puffs.wordOf(settings.puff)) +
                          ", allowed: tiles with puff=gaussian, or hardware");
+    if (settings.raster == Raster::tiles && settings.noise.isOn())
+        throw InputError("parameter raster: got tiles with noise, allowed: tiles without noise, or hardware");
 }
 
 void Billboard::prepare(const scene::Scene&, const RunSetup&, gpu::Device& device) {
@@ -88,6 +90,11 @@ void Billboard::upload(const Puffs& dust, std::span<const float> opacity, std::s
             *value++ = dust.radius[i];
             *value++ = opacity[i];
             if (quads_->framed()) *value++ = frameOf(dust, i, settings_.puff, frames);
+            if (quads_->noisy()) {
+                const auto [noise, metres] =
+                    draw::noiseOf(dust.serial[i], dust.radius[i], glm::vec3(0), settings_.noise);
+                for (const float each : {noise.x, noise.y, noise.z, metres}) *value++ = each;
+            }
             if (layout.coloured) {
                 *value++ = dust.red[i];
                 *value++ = dust.green[i];
@@ -152,14 +159,15 @@ MethodInfo describe() {
                 "(puff=gaussian is then a circle that fades smoothly)")
         .choice("raster", Raster::hardware, rasters,
                 "blend with the GPU's rasteriser, or tile by tile in a compute shader, for GPUs that hardly rasterise; "
-                "the same picture; tiles need puff=gaussian");
+                "the same picture; tiles need puff=gaussian and noise=0");
     draw::declareOpacity(info.parameters);
+    draw::declareNoise(info.parameters);
     info.parameters.choice("mode", "fixed", {"fixed", "paper"}, "draw by the optical model, or as in the paper")
         .preset("mode", "paper", {{"sort", "quicksort"}, {"puff", "texture"}, {"alpha", "plain"}, {"opacity", "age"}});
-    // Pictures, the opacity by age and the paper's quicksort run on the CPU.
+    // Pictures, noise, the opacity by age and the paper's quicksort run on the CPU.
     info.takesGpuDust = [](const ParameterValues& values) {
         return values.choice("sort", draw::sortKinds) != draw::SortKind::quicksort &&
-               values.choice("puff", puffs) == Puff::gaussian &&
+               values.choice("puff", puffs) == Puff::gaussian && !draw::noiseSettings(values).isOn() &&
                values.choice("opacity", draw::opacityOrigins) == draw::OpacityFrom::dust;
     };
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
@@ -171,6 +179,8 @@ MethodInfo describe() {
         settings.opacity = values.choice("opacity", draw::opacityOrigins);
         settings.youngOpacity = values.real("young_opacity");
         settings.raster = values.choice("raster", rasters);
+        settings.noise = draw::noiseSettings(values);
+        settings.style.noise = settings.noise.amplitude;
         settings.style.facing = values.choice("facing", draw::facings);
         return std::make_unique<Billboard>(settings);
     };

@@ -3,7 +3,8 @@
 // Source: Carr2006, 3.1. `mode=paper` draws as the paper does: quicksort, one puff picture, opacity by age alone times
 // the picture's alpha. Departs in `mode=fixed`: opacity follows the optical model shared by all methods
 // (maths/transmittance.h). `puff` selects the paper's single puff picture, several pictures or an animation; `soft`
-// fades quads out where they meet opaque surfaces. `raster=tiles` draws the same layer without the GPU's rasteriser.
+// fades quads out where they meet opaque surfaces; `noise` makes puffs uneven, which the paper names as future work.
+// `raster=tiles` draws the same layer without the GPU's rasteriser.
 #pragma once
 
 #include <memory>
@@ -14,6 +15,7 @@
 #include "methods/kit/draw/billboards.h"
 #include "methods/kit/draw/depth_sort.h"
 #include "methods/kit/draw/gpu_depth_order.h"
+#include "methods/kit/draw/puff_noise.h"
 #include "methods/kit/draw/puff_textures.h"
 #include "methods/kit/draw/tile_billboards.h"
 
@@ -46,6 +48,7 @@ struct Settings {
     double youngOpacity = 0.5;
     draw::BillboardStyle style{};
     Raster raster = Raster::hardware;
+    draw::NoiseSettings noise{};
 };
 
 class Billboard final : public Method {

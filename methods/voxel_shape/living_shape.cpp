@@ -17,11 +17,12 @@ void LivingShape::prepare(MemoryLedger& ledger, const scene::Scene& scene, gpu::
     if (shape_.stress.fullMetres > 0) stress_.emplace(ledger, *system_, shape_.stress);
     if (shape_.dustDrawsPerSecond > 0) flow_.emplace(ledger);
     if (!shape_.flow.files.empty()) field_.emplace(shape_.flow.files, shape_.flow.field);
-    if (shape_.collides && !scene.solids.empty()) {
+    const Collidable& with = shape_.collidesWith;
+    if ((with.solids && !scene.solids.empty()) || (with.vehicle && scene.vehicle)) {
         double scale = 0;
         for (const TrackKey& key : shape_.track.keys) scale = std::max(scale, key.scale);
         const float voxel = system_->grid().lattice().edgeMetres * static_cast<float>(scale);
-        collision_.emplace(scene, voxel, shape_.impact);
+        collision_ = std::make_unique<ShapeCollision>(scene, voxel, shape_.impact, with);
     }
     shape_.motion.wind = shape_.windFactor * scene.wind;
 }
@@ -35,6 +36,7 @@ void LivingShape::step(const Frame& frame) {
     }
     if (collision_) {
         const auto timing = frame.clock.measureDetail("collide");
+        collision_->moveTo(frame.state, frame.stepSeconds);
         collision_->stopParticles(system_->particles(), seconds);
     }
     // Switch voxels for the new pose before `replace`, so that nothing is born inside a solid.

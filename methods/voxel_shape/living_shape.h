@@ -3,6 +3,7 @@
 // Units: m, s. Frame: world. Owns: all of it, on a ledger. Threads: the OpenGL thread's; uses the current oneTBB arena.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "methods/contract/method.h"
@@ -42,7 +43,7 @@ class LivingShape {
     std::optional<ShapeStress> stress_;
     std::optional<DustFlow> flow_;
     std::optional<volumes::VectorSeries> field_;
-    std::optional<ShapeCollision> collision_;
+    std::unique_ptr<ShapeCollision> collision_;
 };
 
 }  // namespace dustbench::voxel_shape

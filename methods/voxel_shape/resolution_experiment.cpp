@@ -27,7 +27,7 @@ Shape atRest(const std::string& name, int voxelsASide) {
     Shape shape = readShape(files::findData("shape", "shapes", name, ".toml"));
     shape.track.followsVehicle = false;
     shape.track.keys = {{}};
-    shape.collides = false;
+    shape.collidesWith = {.solids = false};
     shape.resolution = voxelsASide;
     shape.voxels.maximumDensity = particlesAVoxel;
     shape.look.pixels = 0;  // the size of the particles

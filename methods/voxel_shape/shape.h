@@ -113,7 +113,7 @@ struct Shape {
     VoxelChange voxels;  ///< attributes of all voxels; complete except for the colour
     std::vector<VoxelEdit> edits;
     Motion motion;
-    bool collides = true;  ///< with the scene's solids
+    Collidable collidesWith;
     Impact impact;
     float windFactor = 1;  ///< share of the scene's wind
     Look look;

@@ -185,7 +185,8 @@ void readMotion(TomlReader& file, Shape& shape) {
 void readCollision(TomlReader& file, Shape& shape) {
     if (!file.has("collision")) return;
     TomlReader table = file.table("collision");
-    shape.collides = table.boolean("with_solids", shape.collides);
+    shape.collidesWith.solids = table.boolean("with_solids", shape.collidesWith.solids);
+    shape.collidesWith.vehicle = table.boolean("with_vehicle", shape.collidesWith.vehicle);
     shape.impact.restitution = number(table, "restitution", 0, 1, shape.impact.restitution);
     shape.impact.friction = number(table, "friction", 0, 1, shape.impact.friction);
     shape.impact.scatter = number(table, "scatter", 0, 1, shape.impact.scatter);

@@ -59,6 +59,9 @@ Shape shapeOf(const ParameterValues& values) {
     if (shape.fill == Fill::solid && shape.voxeliser != Voxeliser::conservative)
         throw InputError("shape '" + shape.name + "': fill = \"solid\" needs voxeliser=conservative; got " +
                          std::string(voxelisers.wordOf(shape.voxeliser)));
+    shape.collidesWith = unlessPreset(values, "collide", collidables, shape.collidesWith);
+    for (Shape& other : shape.others)
+        other.collidesWith = unlessPreset(values, "collide", collidables, other.collidesWith);
     shape.heldWithin = values.real("held_within");
     Look& look = shape.look;
     look.render = unlessPreset(values, "render", renders, look.render);
@@ -196,6 +199,8 @@ MethodInfo describe() {
         .choice("voxeliser", preset, presetOr(voxelisers),
                 "every voxel that the surface touches (CPU); the paper's slices along z (GPU); or slices along all "
                 "axes; preset: as in the shape's file, with mode=paper slices")
+        .choice("collide", preset, presetOr(collidables),
+                "collides with the scene's solids, with the vehicle, or with both; preset: as in the shape's file")
         .choice("render", preset, presetOr(renders), "how a particle is drawn")
         .real("sprite_pixels", -1, -1, 255, "pixels",
               "width of points and sprites; 0: the size of the particles; negative: as in the shape's file")
@@ -218,8 +223,7 @@ MethodInfo describe() {
         return std::make_unique<VoxelShape>(shapeOf(values));
     };
     info.cannotTake = [](const scene::Scene& scene) -> std::string {
-        if (!scene.vehicle) return "needs a vehicle, whose mesh or motion shapes use";
-        return scene::anySolidMoves(scene) ? "its particles collide only with solids that do not move" : "";
+        return scene.vehicle ? "" : "needs a vehicle, whose mesh or motion shapes use";
     };
     return info;
 }

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Writes the solids of this folder, one in each format that is read. Python 3, standard library only: `python3 make_meshes.py`.
 
-rock.obj, sphere.obj, dart.obj, bellows.obj and bellows_full.obj (no normals: they are computed), crate.ply, wall.ply, paddle.ply and
-paddle_stand.ply (vertex colours), marker_post.stl (binary). Metres, +Y up, on y = 0 but for sphere and paddle, which have their
-middle at the origin.
+rock.obj, sphere.obj, dart.obj, bellows.obj, bellows_full.obj, hand.obj and hand_bent.obj (no normals: they are computed), crate.ply,
+wall.ply, paddle.ply and paddle_stand.ply (vertex colours), marker_post.stl (binary). Metres, +Y up, on y = 0 but for sphere and
+paddle, which have their middle at the origin, and the hands, which have their wrist there.
 """
 import math
 import os
@@ -106,6 +106,68 @@ def bellows():
     full = [(1.45 * x, 1.6 * y, 1.45 * z) for x, y, z in rest]
     write_obj("bellows.obj", "a ball of radius 1 m on the ground", 4, rest, faces)
     write_obj("bellows_full.obj", "bellows.obj, 1.45 times as wide and 1.6 times as high", 4, full, faces)
+
+
+def tube(points, faces, path, sides=14):
+    """A closed tube with round ends along `path`: a list of (centre, half-width along x, half-width across)."""
+    def direction(k):
+        d = minus(path[min(k + 1, len(path) - 1)][0], path[max(k - 1, 0)][0])
+        length = math.sqrt(dot(d, d))
+        return tuple(c / length for c in d)
+
+    rings = []
+    for angle in (80, 55, 30):  # the round end: a quarter of an ellipse
+        (centre, wide, thick), d = path[0], direction(0)
+        back, share = thick * math.sin(math.radians(angle)), math.cos(math.radians(angle))
+        rings.append((tuple(centre[i] - back * d[i] for i in range(3)), wide * share, thick * share, d))
+    rings += [(*path[k], direction(k)) for k in range(len(path))]
+    for angle in (30, 55, 80):
+        (centre, wide, thick), d = path[-1], direction(len(path) - 1)
+        on, share = thick * math.sin(math.radians(angle)), math.cos(math.radians(angle))
+        rings.append((tuple(centre[i] + on * d[i] for i in range(3)), wide * share, thick * share, d))
+    first = len(points)
+    for centre, wide, thick, d in rings:
+        across = cross((1, 0, 0), d)
+        length = math.sqrt(dot(across, across))
+        across = tuple(c / length for c in across)
+        side = cross(d, across)
+        for i in range(sides):
+            c, s = math.cos(2 * math.pi * i / sides), math.sin(2 * math.pi * i / sides)
+            points.append(tuple(centre[a] + wide * c * side[a] + thick * s * across[a] for a in range(3)))
+    for ring in range(len(rings) - 1):
+        for i in range(sides):
+            a, b = first + ring * sides + i, first + ring * sides + (i + 1) % sides
+            faces += [(a, b + sides, b), (a, a + sides, b + sides)]
+    last = first + (len(rings) - 1) * sides
+    for i in range(1, sides - 1):
+        faces += [(first, first + i, first + i + 1), (last, last + i + 1, last + i)]
+
+
+def hand():
+    """A right hand with its forearm, its palm towards +Z, stretched out and with bent fingers: the same faces."""
+    for name, comment, bend in (("hand.obj", "a right hand of 0.19 m and its forearm", 6),
+                                ("hand_bent.obj", "hand.obj with bent fingers", 34)):
+        points, faces = [], []
+        tube(points, faces, [((0, -0.36, 0), 0.040, 0.036), ((0, -0.2, 0), 0.037, 0.032), ((0, -0.05, 0), 0.028, 0.022),
+                             ((0, 0.0, 0), 0.027, 0.019)])
+        tube(points, faces, [((0, 0.0, 0), 0.027, 0.016), ((0, 0.035, 0), 0.037, 0.017), ((0, 0.07, 0), 0.042, 0.015),
+                             ((0, 0.092, 0), 0.041, 0.011)])
+        for x, length, radius in ((-0.032, 0.060, 0.0075), (-0.011, 0.078, 0.0085), (0.0105, 0.084, 0.009),
+                                  (0.0315, 0.074, 0.0085)):
+            y, z, angle = 0.088, 0.0, 0.0
+            path = [((x, y, z), radius, radius)]
+            for joint, share in enumerate((0.46, 0.30, 0.24)):
+                angle += math.radians(bend) * (0.8, 1.1, 0.8)[joint]
+                for part in (0.5, 0.5):  # a ring in the middle of every bone
+                    y += part * share * length * math.cos(angle)
+                    z += part * share * length * math.sin(angle)
+                    path.append(((x, y, z), radius * (1 - 0.07 * joint), radius * (1 - 0.07 * joint)))
+            tube(points, faces, path)
+        lean = math.radians(bend) * 0.6
+        tube(points, faces, [((0.022, 0.012, 0.002), 0.013, 0.013), ((0.044, 0.036, 0.008), 0.0115, 0.011),
+                             ((0.062, 0.062, 0.012 + 0.02 * math.sin(lean)), 0.0105, 0.010),
+                             ((0.068, 0.084, 0.014 + 0.06 * math.sin(lean)), 0.0095, 0.009)])
+        write_obj(name, comment, 5, points, faces)
 
 
 def write_quads(name, comment, vertices, faces):
@@ -277,6 +339,7 @@ rock()
 sphere()
 dart()
 bellows()
+hand()
 crate()
 wall()
 paddle()

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "draw_shaders.h"
 
@@ -17,9 +18,16 @@ std::map<std::string, std::string> billboardDefinitions(const BillboardStyle& st
     if (style.plainAlpha) names["PLAIN_ALPHA"] = "";
     if (style.additive) names["ADDITIVE"] = "";
     if (style.moving) names["MOVING"] = "";
+    if (style.noise > 0) names["NOISY"] = "";
     if (pictures) names["TEXTURED"] = "";
     if (pictures && pictures->crossFaded()) names["CROSS_FADED"] = "";
     return names;
+}
+
+std::vector<gpu::ShaderFile> billboardPieces(const BillboardStyle& style) {
+    std::vector<gpu::ShaderFile> pieces{draw_shaders::error_function_glsl, draw_shaders::billboard_quad_glsl};
+    if (style.noise > 0) pieces.push_back(draw_shaders::gradient_noise_glsl);
+    return pieces;
 }
 
 }  // namespace
@@ -33,7 +41,7 @@ Billboards::Billboards(gpu::Device& device, const BillboardStyle& style, const P
                              puffsAtOnce,
                              billboardDefinitions(style, pictures),
                              gpu::Primitives::triangles,
-                             {draw_shaders::error_function_glsl, draw_shaders::billboard_quad_glsl}}),
+                             billboardPieces(style)}),
       style_(style),
       pictures_(pictures) {}
 
@@ -49,6 +57,7 @@ void Billboards::drawCopy(const scene::View& view, const glm::vec3& colourOfAll,
         program.set("back", copy.back);
         program.set("share", copy.share);
     }
+    if (noisy()) program.set("noise", style_.noise);
     if (pictures_) {
         program.set("shadeScale", pictures_->shadeScale());
         pictures_->texture().bind(0);

@@ -13,6 +13,10 @@ flat in float frame;
 uniform float shadeScale;
 layout(binding = 0) uniform sampler2DArray pictures;
 #endif
+#ifdef NOISY
+in vec3 noisePlace;
+uniform float noise;
+#endif
 #ifdef MOVING
 uniform float share;
 #else
@@ -64,8 +68,11 @@ void main() {
 #ifdef SOFT
     depth *= shareBeforeScene();
 #endif
+#ifdef NOISY
+    depth *= 1.0 + noise * puffNoise(noisePlace);
+#endif
 #ifdef PLAIN_ALPHA
-    float alpha = share * depth;
+    float alpha = share * min(depth, 1.0);
 #elif defined(ADDITIVE)
     float alpha = share * (1.0 - exp2(-depth));
 #else

@@ -36,6 +36,8 @@ struct BillboardStyle {
     bool additive = false;
     /// Each billboard has a displacement and is drawn at several points along it: copies of a moving puff.
     bool moving = false;
+    /// Amplitude of the noise that each billboard has (puff_noise.h); 0: none.
+    float noise = 0;
 };
 
 class DUSTBENCH_API Billboards : public InstanceBatch {
@@ -43,10 +45,12 @@ class DUSTBENCH_API Billboards : public InstanceBatch {
     /// `pictures` must outlive this; null selects Gaussian puffs.
     Billboards(gpu::Device& device, const BillboardStyle& style, const PuffTextures* pictures = nullptr);
 
-    /// x y z radius opacity [picture] [displacement: 3] [red green blue]
+    /// x y z radius opacity [picture] [displacement: 3] [NoisePlace: 4] [red green blue]
     [[nodiscard]] InstanceLayout layout(bool coloured) const {
-        return {5u + (framed() ? 1u : 0u) + (style_.moving ? 3u : 0u) + (coloured ? 3u : 0u), coloured};
+        return {5u + (framed() ? 1u : 0u) + (style_.moving ? 3u : 0u) + (noisy() ? 4u : 0u) + (coloured ? 3u : 0u),
+                coloured};
     }
+    [[nodiscard]] bool noisy() const { return style_.noise > 0; }
     /// Whether each billboard names the picture it shows: 0..frames()−1, with a fraction for cross-fading.
     [[nodiscard]] bool framed() const { return pictures_ != nullptr; }
 

@@ -1,6 +1,6 @@
 // Corners of camera-facing quads, pulled from the instance buffer: SHAPES_AT_ONCE quads per drawn instance.
 layout(std430, binding = 0) readonly buffer Instances {
-    float values[];  // x y z radius opacity [frame] [displacement] [red green blue]
+    float values[];  // x y z radius opacity [frame] [displacement] [noise] [red green blue]
 };
 #ifdef COUNT_ON_GPU
 layout(std430, binding = 7) readonly buffer Drawn {
@@ -30,6 +30,14 @@ flat out vec4 toCentre;  // eye space; 1/(√2·s)
 #endif
 #ifdef TEXTURED
 flat out float frame;
+#endif
+#ifdef NOISY
+out vec3 noisePlace;
+#ifdef COLOURED
+const int noiseBegin = FLOATS - 7;
+#else
+const int noiseBegin = FLOATS - 4;
+#endif
 #endif
 #ifdef COLOURED
 flat out vec3 puffColour;
@@ -61,6 +69,11 @@ void main() {
 #endif
 #ifdef TEXTURED
     frame = values[base + 5];
+#endif
+#ifdef NOISY
+    int noise = base + noiseBegin;
+    noisePlace = vec3(values[noise], values[noise + 1], values[noise + 2]) +
+                 transpose(mat3(worldToEye)) * (position - quad.centre) / values[noise + 3];
 #endif
 #ifdef SOFT
     toQuad = position;

@@ -10,8 +10,8 @@ namespace dustbench::draw {
 namespace {
 
 std::map<std::string, std::string> tileDefinitions(const BillboardStyle& style) {
-    if (style.moving || style.additive)
-        throw std::invalid_argument("billboards in tiles: expected billboards that neither move nor add light");
+    if (style.moving || style.additive || style.noise > 0)
+        throw std::invalid_argument("billboards in tiles: expected billboards without motion, added light and noise");
     std::map<std::string, std::string> names;
     if (style.facing == Facing::viewplane) names["VIEWPLANE"] = "";
     if (style.soft) names["SOFT"] = "";

@@ -21,7 +21,7 @@ namespace dustbench::draw {
 
 class DUSTBENCH_API TileBillboards {
  public:
-    /// Throws std::invalid_argument for a style with moving or additive billboards.
+    /// Throws std::invalid_argument for a style with moving, additive or noisy billboards.
     TileBillboards(gpu::Device& device, const BillboardStyle& style);
 
     /// Replaces the layer where there are billboards. `billboards` have the style of this and no pictures. Details of

@@ -25,6 +25,7 @@ void CrossFade::append(const VoxelCloud& from, std::size_t i, float mass) {
     next_.edge.push_back(from.edge[i]);
     next_.mass.push_back(mass);
     next_.age.push_back(from.age[i]);
+    if (!from.noise.empty()) next_.noise.push_back(from.noise[i]);
     if (!from.coloured()) return;
     next_.red.push_back(from.red[i]);
     next_.green.push_back(from.green[i]);
@@ -50,7 +51,7 @@ void CrossFade::moveTo(const Lattice& lattice) {
     order_.resize(shown_.size());
     std::iota(order_.begin(), order_.end(), 0u);
     std::ranges::sort(order_, [this](std::uint32_t a, std::uint32_t b) { return shown_.place[a] < shown_.place[b]; });
-    next_.resize(0, false);
+    next_.clear();
     for (const std::uint32_t i : order_)
         if (shown_.place[i] != std::numeric_limits<std::uint64_t>::max()) append(shown_, i, shown_.mass[i]);
     std::swap(shown_, next_);
@@ -61,13 +62,13 @@ const VoxelCloud& CrossFade::follow(const VoxelCloud& target, double stepSeconds
     next_.lattice = target.lattice;
     if (first_) {
         first_ = false;
-        next_.resize(0, false);
+        next_.clear();
         for (std::size_t i = 0; i < target.size(); ++i) append(target, i, target.mass[i]);
         std::swap(shown_, next_);
         return shown_;
     }
     moveTo(target.lattice);
-    next_.resize(0, false);
+    next_.clear();
     next_.lattice = target.lattice;
     const auto step = static_cast<float>(-std::expm1(-stepSeconds / timeConstantSeconds_));
     std::size_t old = 0, now = 0;

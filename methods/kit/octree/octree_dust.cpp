@@ -109,6 +109,7 @@ void declareDust(MethodInfo& info) {
               "edge of the octree's world, a cube that follows the vehicle; doubled, with one more level, until it "
               "holds the dust or has 12 levels");
     draw::declareOpacity(info.parameters);
+    draw::declareNoise(info.parameters);
     declareDustFacts(info);
     info.facts.push_back({"mass_lost",
                           "share",
@@ -150,6 +151,7 @@ DustSettings dustSettings(const ParameterValues& values) {
     settings.sort = values.choice("sort", draw::sortKinds);
     settings.opacity = values.choice("opacity", draw::opacityOrigins);
     settings.youngOpacity = values.real("young_opacity");
+    settings.noise = draw::noiseSettings(values);
     settings.crossFade = values.boolean("crossfade");
     settings.crossFadeSeconds = values.real("crossfade_time");
     settings.worldEdgeMetres = values.real("world_edge");
@@ -178,7 +180,8 @@ void OctreeDust::prepare(const scene::Scene&, const RunSetup&, gpu::Device& devi
     switch (settings_.render) {
         case Render::billboards:
         case Render::circles:
-            billboards_.emplace(device, draw::BillboardStyle{.plainAlpha = settings_.render == Render::circles});
+            billboards_.emplace(device, draw::BillboardStyle{.plainAlpha = settings_.render == Render::circles,
+                                                             .noise = settings_.noise.amplitude});
             break;
         case Render::cubes:
             cubes_.emplace(device);
@@ -200,7 +203,7 @@ void OctreeDust::build(const Frame& frame) {
     }
     {
         const auto detail = frame.clock.measureDetail("list");
-        cloud_.take(tree_, dust, VoxelRule(dust, settings_.tree.policy), lattice);
+        cloud_.take(tree_, dust, VoxelRule(dust, settings_.tree.policy), lattice, settings_.noise);
     }
     if (!fade_) return;
     const auto detail = frame.clock.measureDetail("crossfade");
@@ -242,6 +245,10 @@ void OctreeDust::uploadBillboards(std::span<const std::uint32_t> order) {
             *value++ = cloud.z[i];
             *value++ = cloud.edge[i] / edgesPerRadius;
             *value++ = std::min(-std::expm1(-cloud.opticalDepth(i)), maximumOpacity);
+            if (billboards_->noisy()) {
+                const auto& [noise, metres] = cloud.noise[i];
+                for (const float each : {noise.x, noise.y, noise.z, metres}) *value++ = each;
+            }
             if (!layout.coloured) continue;
             *value++ = cloud.red[i];
             *value++ = cloud.green[i];
@@ -249,6 +256,11 @@ void OctreeDust::uploadBillboards(std::span<const std::uint32_t> order) {
         }
     });
     billboards_->unmap();
+}
+
+/// For voxels of one density: the noise at their centre.
+float OctreeDust::noiseFactor(const VoxelCloud& cloud, std::size_t i) const {
+    return cloud.noise.empty() ? 1 : 1 + settings_.noise.amplitude * draw::plainNoise(cloud.noise[i].place);
 }
 
 void OctreeDust::uploadCubes(std::span<const std::uint32_t> order) {
@@ -263,7 +275,7 @@ void OctreeDust::uploadCubes(std::span<const std::uint32_t> order) {
             *value++ = cloud.y[i];
             *value++ = cloud.z[i];
             *value++ = cloud.edge[i];
-            *value++ = cloud.opticalDepth(i);
+            *value++ = cloud.opticalDepth(i) * noiseFactor(cloud, i);
             if (!layout.coloured) continue;
             *value++ = cloud.red[i];
             *value++ = cloud.green[i];
@@ -284,7 +296,8 @@ void OctreeDust::uploadTree() {
     }
     extinctions_.resize(cloud.size());
     colours_.resize(cloud.coloured() ? cloud.size() : 0);
-    for (std::size_t i = 0; i < cloud.size(); ++i) extinctions_[i] = cloud.extinctionPerMetre(i);
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+        extinctions_[i] = cloud.extinctionPerMetre(i) * noiseFactor(cloud, i);
     for (std::size_t i = 0; i < colours_.size(); ++i) colours_[i] = {cloud.red[i], cloud.green[i], cloud.blue[i]};
     march_->upload({cloud.lattice, tree->blocks(), extinctions_, colours_});
 }

@@ -41,6 +41,7 @@ struct DustSettings {
     draw::SortKind sort = draw::SortKind::radix;
     draw::OpacityFrom opacity = draw::OpacityFrom::dust;
     double youngOpacity = 0.5;
+    draw::NoiseSettings noise{};
     bool crossFade = false;
     double crossFadeSeconds = 0.1;
     double worldEdgeMetres = 128;  ///< of the smallest world
@@ -92,6 +93,7 @@ class DUSTBENCH_API OctreeDust final : public Method {
     void uploadBillboards(std::span<const std::uint32_t> order);
     void uploadCubes(std::span<const std::uint32_t> order);
     void uploadTree();
+    [[nodiscard]] float noiseFactor(const VoxelCloud& cloud, std::size_t i) const;
 
     DustSettings settings_;
     MemoryLedger ledger_;

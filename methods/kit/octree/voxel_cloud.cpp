@@ -20,7 +20,8 @@ VoxelCloud::VoxelCloud(MemoryLedger& ledger)
       age(ledger.account("voxel list")),
       red(ledger.account("voxel list")),
       green(ledger.account("voxel list")),
-      blue(ledger.account("voxel list")) {}
+      blue(ledger.account("voxel list")),
+      noise(ledger.account("voxel list")) {}
 
 void VoxelCloud::resize(std::size_t count, bool withColours) {
     place.resize(count);
@@ -38,11 +39,13 @@ void VoxelCloud::locate(std::size_t i) {
     edge[i] = static_cast<float>(finest * cells);
 }
 
-void VoxelCloud::take(const Octree& tree, const Puffs& store, const VoxelRule& rule, const Lattice& treeLattice) {
+void VoxelCloud::take(const Octree& tree, const Puffs& store, const VoxelRule& rule, const Lattice& treeLattice,
+                      const draw::NoiseSettings& noiseOfPuffs) {
     lattice = treeLattice;
     const std::span<const CellEntry> voxels = tree.voxels();
     const std::span<const double> masses = tree.masses();
     resize(voxels.size(), !store.uniformColour);
+    noise.resize(noiseOfPuffs.isOn() ? voxels.size() : 0);
     parallel::forEachBlock(voxels.size(), cloudBlock, [&](std::size_t first, std::size_t count) {
         for (std::size_t i = first; i < first + count; ++i) {
             const std::uint32_t particle = voxels[i].index();
@@ -50,6 +53,9 @@ void VoxelCloud::take(const Octree& tree, const Puffs& store, const VoxelRule& r
             locate(i);
             mass[i] = static_cast<float>(masses.empty() ? rule.massSquareMetres(particle) : masses[i]);
             age[i] = store.age[particle];
+            if (!noise.empty())
+                noise[i] = draw::noiseOf(store.serial[particle], store.radius[particle],
+                                         glm::vec3(x[i], y[i], z[i]) - store.position(particle), noiseOfPuffs);
             if (red.empty()) continue;
             red[i] = store.red[particle];
             green[i] = store.green[particle];

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "methods/contract/volume.h"
+#include "methods/kit/draw/puff_noise.h"
 #include "methods/kit/memory/memory_ledger.h"
 #include "methods/kit/octree/lattice.h"
 #include "methods/kit/octree/octree.h"
@@ -20,8 +21,13 @@ struct VoxelCloud {
 
     /// Lists the voxels of `tree` with the mass and colour of the particle that represents each, or with the summed
     /// mass.
-    void take(const Octree& tree, const Puffs& store, const VoxelRule& rule, const Lattice& treeLattice);
+    void take(const Octree& tree, const Puffs& store, const VoxelRule& rule, const Lattice& treeLattice,
+              const draw::NoiseSettings& noiseOfPuffs = {});
     void resize(std::size_t count, bool coloured);
+    void clear() {
+        resize(0, false);
+        noise.clear();
+    }
     [[nodiscard]] std::size_t size() const { return place.size(); }
     /// Sets the columns that derive from the place.
     void locate(std::size_t i);
@@ -38,6 +44,7 @@ struct VoxelCloud {
     LedgerVector<float> mass;           ///< τ·2π·s², of the representing particle or summed
     LedgerVector<float> age;
     LedgerVector<float> red, green, blue;  ///< empty if all share one colour
+    LedgerVector<draw::NoisePlace> noise;  ///< that of the representing particle, at the voxel's centre; empty if off
 };
 
 }  // namespace dustbench::octree

@@ -61,6 +61,8 @@ CylinderHit meetCylinder(const glm::vec3& from, const glm::vec3& to, float radiu
 
 }  // namespace
 
+SceneSurface::~SceneSurface() = default;
+
 void SceneSurface::Box::take(const glm::vec3& point) {
     minimum = glm::min(minimum, point);
     maximum = glm::max(maximum, point);

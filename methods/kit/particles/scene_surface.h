@@ -21,9 +21,10 @@ struct SceneParts {
     bool ground = true, solids = true, vehicle = true;
 };
 
-class SceneSurface final : public Surface {
+class DUSTBENCH_API SceneSurface final : public Surface {
  public:
     explicit SceneSurface(const SceneParts& parts) : parts_(parts) {}
+    ~SceneSurface() override;
 
     /// Throws InputError if there are too many triangles for Embree.
     void begin(const Step& step) override;

@@ -54,6 +54,7 @@ void collision(benchmark::State& state) {
     motion.birthSpeed = 4 * lattice.edgeMetres;
     system.step(pose, motion, 1.0f / 60);
     ShapeCollision collision(scene, lattice.edgeMetres, {});
+    collision.moveTo({}, 1.0 / 60);
     std::size_t hits = 0;
     for (auto _ : state) {
         collision.switchVoxels(system.grid(), pose);

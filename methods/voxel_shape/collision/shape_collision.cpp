@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <optional>
-#include <utility>
 
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/maths/sampling.h"
 #include "methods/kit/parallel/for_each_block.h"
 #include "methods/kit/particles/chunk.h"
-#include "methods/voxel_shape/collision/mesh_parts.h"
 
 namespace dustbench::voxel_shape {
 namespace {
@@ -26,70 +23,48 @@ glm::vec3 alongSurface(const glm::vec3& normal, std::uint64_t serial) {
     return point.x * tangents.first + point.y * tangents.second;
 }
 
-template <typename Visit>
-void forEachCorner(const glm::vec3& minimum, const glm::vec3& maximum, const Visit& visit) {
-    for (int corner = 0; corner < 8; ++corner)
-        visit(glm::vec3(corner & 1 ? maximum.x : minimum.x, corner & 2 ? maximum.y : minimum.y,
-                        corner & 4 ? maximum.z : minimum.z));
+/// The velocity relative to the surface after a hit.
+glm::vec3 rebound(const glm::vec3& velocity, const glm::vec3& normal, const Impact& impact, std::uint64_t serial) {
+    const float into = std::min(glm::dot(velocity, normal), 0.0f);
+    const glm::vec3 along = velocity - into * normal;
+    return (1 - impact.friction) * along - impact.restitution * into * normal +
+           impact.scatter * into * alongSurface(normal, serial);
+}
+
+/// The place at the step's end of a particle that hit a surface at `share` of its path: in front of the point that it
+/// hit, by a gap along the path relative to the surface, which is free up to the hit.
+glm::vec3 stopOn(const particles::Touch& touch, const glm::vec3& relativeVelocity, float share, float stepSeconds) {
+    const glm::vec3 carried = touch.point + (1 - share) * stepSeconds * touch.velocity;
+    const float speed = glm::length(relativeVelocity);
+    if (!(speed > 0)) return carried;
+    return carried - std::min(share * stepSeconds, gapMetres / speed) * relativeVelocity;
 }
 
 }  // namespace
 
-ShapeCollision::Place ShapeCollision::placeOf(Nearness nearness, const glm::mat4& toWorld) {
-    const Lattice& lattice = nearness.lattice();
-    const glm::mat4 toSolid = glm::inverse(toWorld);
-    Box box{glm::vec3(INFINITY), glm::vec3(-INFINITY)};
-    forEachCorner(lattice.origin, lattice.maximumCorner(), [&](const glm::vec3& corner) {
-        const glm::vec3 world(toWorld * glm::vec4(corner, 1));
-        box.minimum = glm::min(box.minimum, world);
-        box.maximum = glm::max(box.maximum, world);
-    });
-    const glm::mat3 toCells = glm::mat3(toSolid) / lattice.edgeMetres;
-    const glm::vec3 offset = (glm::vec3(toSolid[3]) - lattice.origin) / lattice.edgeMetres;
-    return {std::move(nearness), toCells, offset, box};
-}
+ShapeCollision::ShapeCollision(const scene::Scene& scene, float voxelMetres, const Impact& impact,
+                               const Collidable& with)
+    : scene_(&scene),
+      impact_(impact),
+      surface_({.ground = false, .solids = with.solids, .vehicle = with.vehicle}),
+      places_(scene, voxelMetres, with) {}
 
-ShapeCollision::ShapeCollision(const scene::Scene& scene, float voxelMetres, const Impact& impact)
-    : impact_(impact), reachMetres_(voxelMetres * std::sqrt(3.0f) / 2) {
-    std::vector<std::pair<scene::Mesh, glm::mat4>> parts;
-    for (std::size_t i = 0; i < scene.solids.size(); ++i) {
-        tree_.add(*scene.solids[i].mesh, scene.solidPoses[i].toWorld);
-        for (scene::Mesh& part : partsOf(*scene.solids[i].mesh))
-            parts.emplace_back(std::move(part), scene.solidPoses[i].toWorld);
-    }
-    std::vector<std::optional<Place>> places(parts.size());
-    parallel::forEachBlock(parts.size(), 1, [&](std::size_t i, std::size_t) {
-        const auto& [mesh, toWorld] = parts[i];
-        const float scale = glm::length(glm::vec3(toWorld[0]));
-        places[i] = placeOf(Nearness(mesh, voxelMetres / 2 / scale, reachMetres_ / scale), toWorld);
-    });
-    for (std::optional<Place>& place : places) places_.push_back(std::move(*place));
-    tree_.build();
-}
-
-std::vector<std::uint32_t> ShapeCollision::placesMeeting(const Box& box) const {
-    std::vector<std::uint32_t> list;
-    for (std::uint32_t i = 0; i < places_.size(); ++i)
-        if (places_[i].box.meets(box)) list.push_back(i);
-    return list;
-}
-
-bool ShapeCollision::nearAny(const std::vector<std::uint32_t>& places, const glm::vec3& point) const {
-    return std::any_of(places.begin(), places.end(), [&](std::uint32_t i) {
-        return places_[i].nearness.at(places_[i].toCells * point + places_[i].offset);
-    });
+void ShapeCollision::moveTo(const scene::SceneState& state, double stepSeconds) {
+    if (places_.empty()) return;
+    surface_.begin(
+        {.scene = *scene_, .state = state, .seconds = stepSeconds, .seed = 0, .fixedRatePerSecond = 0, .wheels = {}});
+    places_.moveTo(*scene_, state, stepSeconds);
 }
 
 void ShapeCollision::switchVoxels(VoxelGrid& grid, const Pose& pose) {
     const Lattice& lattice = grid.lattice();
-    Box box{glm::vec3(INFINITY), glm::vec3(-INFINITY)};
-    forEachCorner(lattice.origin, lattice.maximumCorner(), [&](const glm::vec3& corner) {
-        const glm::vec3 world = pose.toWorld(corner);
-        box.minimum = glm::min(box.minimum, world);
-        box.maximum = glm::max(box.maximum, world);
-    });
-    const std::vector<std::uint32_t> close = placesMeeting(box);
+    AxisBox local, box;
+    local.take(lattice.origin);
+    local.take(lattice.maximumCorner());
+    local.forEachCorner([&](const glm::vec3& corner) { box.take(pose.toWorld(corner)); });
+    const std::vector<std::uint32_t> close = places_.meeting(box, false);
     if (close.empty() && off_ == 0) return;
+    places_.refresh(box);
     std::atomic<std::size_t> off{0};
     const std::span<const std::uint32_t> active = grid.active();
     const std::span<Voxel> voxels = grid.voxels();
@@ -97,7 +72,7 @@ void ShapeCollision::switchVoxels(VoxelGrid& grid, const Pose& pose) {
         std::size_t found = 0;
         for (std::size_t k = first; k < first + count; ++k) {
             const glm::vec3 centre = pose.toWorld(lattice.centre(lattice.cell(active[k])));
-            const bool touches = nearAny(close, centre);
+            const bool touches = places_.nearAny(close, centre);
             voxels[active[k]].setSwitchedOff(touches);
             found += touches;
         }
@@ -111,31 +86,27 @@ std::size_t ShapeCollision::stopParticles(ShapeParticles& particles, float stepS
     particles::ParticleStore& s = particles.store;
     std::atomic<std::size_t> hits{0};
     parallel::forEachBlock(s.size(), particles::chunkSize, [&](std::size_t first, std::size_t count) {
-        Box box{glm::vec3(INFINITY), glm::vec3(-INFINITY)};
+        AxisBox box;
         for (std::size_t i = first; i < first + count; ++i) {
             const glm::vec3 now = s.position(i);
-            const glm::vec3 before = now - stepSeconds * glm::vec3(s.velocityX[i], s.velocityY[i], s.velocityZ[i]);
-            box.minimum = glm::min(box.minimum, glm::min(now, before));
-            box.maximum = glm::max(box.maximum, glm::max(now, before));
+            box.take(now);
+            box.take(now - stepSeconds * glm::vec3(s.velocityX[i], s.velocityY[i], s.velocityZ[i]));
         }
-        const std::vector<std::uint32_t> close = placesMeeting(box);
+        const std::vector<std::uint32_t> close = places_.meeting(box, true);
         if (close.empty()) return;
         std::size_t found = 0;
         for (std::size_t i = first; i < first + count; ++i) {
             const glm::vec3 velocity(s.velocityX[i], s.velocityY[i], s.velocityZ[i]);
-            const glm::vec3 now = s.position(i), way = stepSeconds * velocity, before = now - way;
-            const float length = glm::length(way);
-            // A path shorter than the reach that begins away from all solids cannot hit one.
-            if (!(length > 0) || (length <= reachMetres_ && !nearAny(close, before))) continue;
-            const auto hit = tree_.firstHit(before, now);
-            if (!hit) continue;
+            const glm::vec3 now = s.position(i), before = now - stepSeconds * velocity;
+            if (!places_.mayHit(close, now, stepSeconds * glm::length(velocity))) continue;
+            float share = particles::Surface::none;
+            surface_.meet({1, &before.x, &before.y, &before.z, &now.x, &now.y, &now.z, &stepSeconds}, &share);
+            if (share > 1) continue;
             ++found;
-            // Step back along the path, which is free up to the hit.
-            const glm::vec3 stop = before + std::max(0.0f, hit->share - gapMetres / length) * way;
-            const float into = glm::dot(velocity, hit->normal);
-            const glm::vec3 along = velocity - into * hit->normal;
-            const glm::vec3 after = (1 - impact_.friction) * along - impact_.restitution * into * hit->normal +
-                                    impact_.scatter * into * alongSurface(hit->normal, s.serial[i]);
+            const particles::Touch touch = surface_.touchAt({before, now, stepSeconds, share});
+            const glm::vec3 relative = velocity - touch.velocity;
+            const glm::vec3 stop = stopOn(touch, relative, share, stepSeconds);
+            const glm::vec3 after = touch.velocity + rebound(relative, touch.normal, impact_, s.serial[i]);
             s.x[i] = stop.x;
             s.y[i] = stop.y;
             s.z[i] = stop.z;
@@ -149,9 +120,7 @@ std::size_t ShapeCollision::stopParticles(ShapeParticles& particles, float stepS
 }
 
 MemoryReport ShapeCollision::memory() const {
-    std::size_t cells = places_.capacity() * sizeof(Place);
-    for (const Place& place : places_) cells += place.nearness.bytes();
-    return {{"solids: triangles", tree_.bytes(), 0}, {"solids: cells", cells, 0}};
+    return {{"solids: triangles", surface_.bytes(), 0}, {"solids: cells", places_.bytes(), 0}};
 }
 
 }  // namespace dustbench::voxel_shape

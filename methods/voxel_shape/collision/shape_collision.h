@@ -1,21 +1,21 @@
-// Keeps a shape's particles out of the scene's solids, in three steps: the shape's bounding box; then its voxels, which
-// are switched off while they touch a solid; then the path of each particle near a solid against the solid's triangles.
+// Keeps a shape's particles out of the scene's solids and its vehicle, in three steps: the shape's bounding box; then
+// its voxels, which are switched off while they touch one of them; then the path of each particle near one against its
+// triangles (a wheel is the cylinder of its outline). Solids that move or deform do so during the step.
 //
-// A particle that hits a triangle stops one millimetre in front of it. The normal component of its velocity is reversed
-// and scaled by `restitution`; the tangential component is scaled by 1 − `friction`. In addition it gets up to
-// `scatter` times the normal speed in its own random tangential direction, so that a shape bursts.
+// A particle that hits a surface stops one millimetre in front of it, and a surface that moves carries it for the rest
+// of the step. Relative to the surface, the normal component of its velocity is reversed and scaled by `restitution`;
+// the tangential component is scaled by 1 − `friction`. In addition it gets up to `scatter` times the normal speed in
+// its own random tangential direction, so that a shape bursts.
 //
-// Units: m, s. Frame: world. Owns: the solids' tree and grids. Threads: one caller at a time; uses the current oneTBB
-// arena; the result does not depend on the number of threads.
+// Units: m, m/s, s. Frame: world. Owns: the solids' trees and grids. Threads: one caller at a time; uses the current
+// oneTBB arena; the result does not depend on the number of threads.
 // Source: JuckelBeckhaus2007, 5.2. Departs: the paper gives no response.
 #pragma once
 
-#include <vector>
-
+#include "methods/contract/memory_report.h"
 #include "methods/contract/scene.h"
-#include "methods/kit/memory/memory_ledger.h"
-#include "methods/kit/meshes/triangle_tree.h"
-#include "methods/voxel_shape/collision/nearness.h"
+#include "methods/kit/particles/scene_surface.h"
+#include "methods/voxel_shape/collision/solid_places.h"
 #include "methods/voxel_shape/particles/pose.h"
 #include "methods/voxel_shape/particles/shape_particles.h"
 #include "methods/voxel_shape/voxels/voxel_grid.h"
@@ -30,9 +30,12 @@ struct Impact {
 
 class ShapeCollision {
  public:
-    /// `voxelMetres`: the largest edge that the shape's voxels will have in the world.
-    ShapeCollision(const scene::Scene& scene, float voxelMetres, const Impact& impact);
+    /// `voxelMetres`: the largest edge that the shape's voxels will have in the world. The scene must outlive this
+    /// object.
+    ShapeCollision(const scene::Scene& scene, float voxelMetres, const Impact& impact, const Collidable& with = {});
 
+    /// Moves solids and vehicle to the end of a step; call first in each step.
+    void moveTo(const scene::SceneState& state, double stepSeconds);
     /// The first two steps: switches off the voxels that touch a solid, and switches on the others.
     void switchVoxels(VoxelGrid& grid, const Pose& pose);
     /// The third step, right after the particles moved by `stepSeconds` of their velocity. Returns the number of hits.
@@ -43,28 +46,10 @@ class ShapeCollision {
     [[nodiscard]] MemoryReport memory() const;
 
  private:
-    struct Box {
-        glm::vec3 minimum, maximum;
-        [[nodiscard]] bool meets(const Box& other) const {
-            return glm::all(glm::lessThanEqual(minimum, other.maximum)) &&
-                   glm::all(glm::lessThanEqual(other.minimum, maximum));
-        }
-    };
-    /// One part of the scene's solids.
-    struct Place {
-        Nearness nearness;
-        glm::mat3 toCells;  ///< world → cells: toCells·p + offset
-        glm::vec3 offset;
-        Box box;  ///< of the cells, in the world
-    };
-    [[nodiscard]] static Place placeOf(Nearness nearness, const glm::mat4& toWorld);
-    [[nodiscard]] bool nearAny(const std::vector<std::uint32_t>& places, const glm::vec3& point) const;
-    [[nodiscard]] std::vector<std::uint32_t> placesMeeting(const Box& box) const;
-
+    const scene::Scene* scene_;
     Impact impact_;
-    float reachMetres_;
-    meshes::TriangleTree tree_;
-    std::vector<Place> places_;
+    particles::SceneSurface surface_;
+    SolidPlaces places_;
     std::size_t off_ = 0;
 };
 

@@ -100,7 +100,9 @@ TEST(ShapeCollision, LeavesVoxelsOnBetweenTheCopiesOfASolid) {
     const scene::Mesh one = copies;
     for (int k = 1; k < 20; ++k)
         copies.append(one, glm::translate(glm::mat4(1), {50.0f * static_cast<float>(k), 0, 0}));
-    ShapeCollision collision(sceneWith(copies, glm::mat4(1)), lattice.edgeMetres, {});
+    const scene::Scene scene = sceneWith(copies, glm::mat4(1));
+    ShapeCollision collision(scene, lattice.edgeMetres, {});
+    collision.moveTo({}, static_cast<double>(dt));
     Pose pose;
     pose.position = {102.5f, 0, 0};
     collision.switchVoxels(system.grid(), pose);
@@ -117,7 +119,9 @@ TEST(ShapeCollision, SwitchesOffEveryVoxelThatTouchesASolidAndOnAgainAfterwards)
     ShapeSystem system(ledger, surfaceVoxels(ball, lattice), Voxel(), 1);
     const glm::vec3 half(0.3f, 5, 0.2f);
     const glm::mat4 turned = glm::rotate(glm::translate(glm::mat4(1), {3, 0, 0}), 0.5f, {0, 1, 0});
-    ShapeCollision collision(sceneWith(boxMesh(half), turned), lattice.edgeMetres, {});
+    const scene::Scene scene = sceneWith(boxMesh(half), turned);
+    ShapeCollision collision(scene, lattice.edgeMetres, {});
+    collision.moveTo({}, static_cast<double>(dt));
     for (const float x : {0.0f, 2.5f, 3.0f, 3.6f, 8.0f}) {
         Pose pose;
         pose.position = {x, 0, 0};
@@ -146,8 +150,9 @@ std::uint64_t throughAWall(bool check) {
     system.grid().shareOut(6000);
     const glm::vec3 half(0.4f, 4, 1.2f);
     // The corner of a wall: half of the ball passes it.
-    ShapeCollision collision(sceneWith(boxMesh(half), glm::translate(glm::mat4(1), {4, 0, 1.2f})), lattice.edgeMetres,
-                             {});
+    const scene::Scene scene = sceneWith(boxMesh(half), glm::translate(glm::mat4(1), {4, 0, 1.2f}));
+    ShapeCollision collision(scene, lattice.edgeMetres, {});
+    collision.moveTo({}, static_cast<double>(dt));
     Motion motion;
     motion.birthSpeed = 0.3f;
     std::size_t hits = 0, maximumOff = 0, maximumOutside = 0;
@@ -200,7 +205,9 @@ TEST(ShapeCollision, TurnsBackWhatLedIntoTheSurfaceAndSlowsWhatLedAlongIt) {
     MemoryLedger ledger;
     ShapeParticles particles(ledger);
     particles.resize(1);
-    ShapeCollision collision(sceneWith(boxMesh({1, 1, 1}), glm::mat4(1)), 0.1f, {0.5f, 0.2f});
+    const scene::Scene scene = sceneWith(boxMesh({1, 1, 1}), glm::mat4(1));
+    ShapeCollision collision(scene, 0.1f, {0.5f, 0.2f});
+    collision.moveTo({}, static_cast<double>(dt));
     particles::ParticleStore& s = particles.store;
     // The particle has just moved from (−1.05, 0, 0) by (0.1, 0.05, 0) into the side x = −1.
     s.x[0] = -0.95f;
@@ -221,7 +228,9 @@ TEST(ShapeCollision, ScattersAlongTheSurfaceAloneAndAllWaysAlike) {
     ShapeParticles particles(ledger);
     constexpr std::size_t count = 2000;
     particles.resize(count);
-    ShapeCollision collision(sceneWith(boxMesh({1, 1, 1}), glm::mat4(1)), 0.1f, {0.6f, 0, 0.8f});
+    const scene::Scene scene = sceneWith(boxMesh({1, 1, 1}), glm::mat4(1));
+    ShapeCollision collision(scene, 0.1f, {0.6f, 0, 0.8f});
+    collision.moveTo({}, static_cast<double>(dt));
     particles::ParticleStore& s = particles.store;
     for (std::size_t i = 0; i < count; ++i) {
         s.serial[i] = i;

@@ -25,6 +25,7 @@ bool isBuiltOnGpu(const ParameterValues& values) {
 GpuOctreeDust::GpuOctreeDust(const DustSettings& settings) : settings_(settings) {
     requireOnGpu(settings.sort != draw::SortKind::quicksort, "sort", "quicksort", "radix|none");
     requireOnGpu(!settings.crossFade, "crossfade", "on", "off");
+    requireOnGpu(!settings.noise.isOn(), "noise", "more than 0", "0");
 }
 
 void GpuOctreeDust::prepare(const scene::Scene&, const RunSetup&, gpu::Device& device) {
