@@ -102,7 +102,8 @@ TEST(ReportedDepths, OfSeveralPartsAddUpAtAnyNumberOfThreads) {
     const scene::View view = test::viewFrom({7, 2, 5}, {0, 1, 0});
     const OpaqueDistances sky = skyDistances(view);
     const SameCells same(9);
-    CollectedVolume puffs, all = same.asGrid;
+    SameCells both(9);
+    CollectedVolume puffs, &all = both.asGrid;
     puffs.puffs(store);
     all.puffs(store);
     const auto a = reportedDepths(same.asGrid, view, sky), b = reportedDepths(puffs, view, sky);
