@@ -29,6 +29,15 @@ std::vector<std::string> fluidNames() {
     return names;
 }
 
+/// The choice that leaves a setting to the fluid's file.
+constexpr const char* ofTheFluid = "preset";
+
+std::vector<std::string> flameNames() {
+    std::vector<std::string> names = files::listData("fluids/flame", ".toml");
+    names.insert(names.begin(), ofTheFluid);
+    return names;
+}
+
 void override(const ParameterValues& values, const char* name, float& value) {
     if (const double given = values.real(name); given >= 0) value = static_cast<float>(given);
     // Values between "as in the file" and 0 have no meaning.
@@ -82,7 +91,10 @@ GridFluidSettings settingsOf(const ParameterValues& values) {
     raycast::RaycastSettings& picture = settings.picture;
     picture = raycast::raycastSettings(values, setup.look.shadowCells);
     picture.extinctionPerMetre = setup.look.extinctionPerMetre;
-    if (!setup.look.fire.empty()) picture.fire = raycast::loadTransferFunction(setup.look.fire);
+    std::filesystem::path fire = setup.look.fire;
+    if (const std::string& flame = values.choice("flame"); flame != ofTheFluid)
+        fire = files::findData("flame", "fluids/flame", flame, ".toml");
+    if (!fire.empty()) picture.fire = raycast::loadTransferFunction(fire);
     return settings;
 }
 
@@ -121,6 +133,9 @@ MethodInfo describe() {
         .real("cooling", asTheFileSays, asTheFileSays, 1000, "1/s", "rate of heat loss; -1: as in the file")
         .real("decay", asTheFileSays, asTheFileSays, 1000, "1/s", "rate of density loss; -1: as in the file")
         .real("diffusion", asTheFileSays, asTheFileSays, 1000, "m2/s", "viscosity; -1: as in the file")
+        .choice("flame", ofTheFluid, flameNames(),
+                "colour and brightness of fire by its freshness: a table of rows, or a black body by Planck's law; "
+                "preset: as in the fluid's file")
         .boolean(
             "trail", true,
             "keep the dust that leaves a box that follows the vehicle: the wind carries it, and it fades with age; "

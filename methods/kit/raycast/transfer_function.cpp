@@ -5,6 +5,7 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/toml_reader.h"
+#include "methods/kit/raycast/planck.h"
 
 namespace dustbench::raycast {
 namespace {
@@ -71,8 +72,37 @@ std::vector<glm::vec4> TransferFunction::table() const {
     return values;
 }
 
+namespace {
+
+TransferFunction readPlanck(files::TomlReader table) {
+    PlanckFire fire;
+    fire.coldKelvin = table.number("cold_kelvin", 100, 20'000, fire.coldKelvin);
+    fire.hotKelvin = table.number("hot_kelvin", 500, 20'000, fire.hotKelvin);
+    if (!(fire.hotKelvin > fire.coldKelvin))
+        throw InputError(table.where("hot_kelvin") + "key 'hot_kelvin': got " + std::to_string(fire.hotKelvin) +
+                         ", allowed: more than cold_kelvin (" + std::to_string(fire.coldKelvin) + ")");
+    fire.luminance = table.number("luminance", 0, 100, fire.luminance);
+    const auto extinction = [&](const char* key, float initial) {
+        return static_cast<float>(table.number(key, 0, maximumExtinction, static_cast<double>(initial)));
+    };
+    fire.burntExtinction = extinction("burnt_extinction", fire.burntExtinction);
+    fire.freshExtinction = extinction("fresh_extinction", fire.freshExtinction);
+    table.finish();
+    return transferFunctionOf(fire);
+}
+
+}  // namespace
+
 TransferFunction loadTransferFunction(const std::filesystem::path& file) {
     files::TomlReader reader = files::TomlReader::parseFile(file);
+    if (reader.has("planck")) {
+        if (reader.has("row"))
+            throw InputError(reader.where("row") +
+                             "got both [planck] and [[row]], allowed: either [planck] or [[row]]");
+        files::TomlReader table = reader.table("planck");
+        reader.finish();
+        return readPlanck(std::move(table));
+    }
     std::vector<files::TomlReader> tables = reader.tables("row");
     reader.finish();
     checkCount(tables.size(), reader.where());

@@ -33,8 +33,8 @@ class DUSTBENCH_API TransferFunction {
     std::vector<Row> rows_;
 };
 
-/// Reads `[[row]]` tables with `reaction`, `emission = [red, green, blue]` and `extinction`. Throws InputError with
-/// file and line.
+/// Reads `[[row]]` tables with `reaction`, `emission = [red, green, blue]` and `extinction`, or a table `[planck]`
+/// (planck.h). Throws InputError with file and line.
 [[nodiscard]] DUSTBENCH_API TransferFunction loadTransferFunction(const std::filesystem::path& file);
 
 }  // namespace dustbench::raycast
