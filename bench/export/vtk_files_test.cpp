@@ -28,7 +28,6 @@
 #include "bench/export/test_clouds.h"
 #include "bench/export/vti_writer.h"
 #include "bench/export/vtp_writer.h"
-#include "bench/measure/provenance.h"
 #include "methods/kit/files/whole_text.h"
 #include "methods/kit/testing/test_folder.h"
 
@@ -62,44 +61,6 @@ void read(Reader& reader, const fs::path& file) {
     reader.SetFileName(file.c_str());
     reader.Update();
     ASSERT_EQ(reader.GetErrorCode(), 0u);
-}
-
-void expectOrigin(vtkDataObject& data) {
-    const auto texts = [&](const char* name) {
-        std::vector<std::string> list;
-        vtkAbstractArray* array = data.GetFieldData()->GetAbstractArray(name);
-        for (vtkIdType i = 0; array && i < array->GetNumberOfValues(); ++i)
-            list.push_back(array->GetVariantValue(i).ToString());
-        return list;
-    };
-    EXPECT_EQ(texts("method"), std::vector<std::string>{"octree_search"});
-    EXPECT_EQ(texts("configuration"), (std::vector<std::string>{"scene=plain", "at=1s:size=2 <&> \"é\""}));
-    EXPECT_EQ(texts("dustbench_version"), std::vector<std::string>{buildFacts().version});
-    expectTime(data);
-}
-
-TEST(VtkFiles, SayWhereTheyComeFrom) {
-    const TestFolder folder;
-    const std::vector<std::string> configuration{"scene=plain", "at=1s:size=2 <&> \"é\""};
-    const FileOrigin origin(vtkSeconds, "octree_search", configuration);
-    const TestDust dust(20, 3, 0.1f, 1);
-    const CollectedVolume volume = dust.volume();
-    writeVti(computeGrid(volume, planGrid(volume.bounds(), 8)), origin, folder.path() / "a.vti");
-    vtkNew<vtkXMLImageDataReader> grid;
-    read(*grid, folder.path() / "a.vti");
-    expectOrigin(*grid->GetOutput());
-
-    writeVtp(dust.store, origin, folder.path() / "a.vtp", std::vector<int>(20, 3));
-    vtkNew<vtkXMLPolyDataReader> points;
-    read(*points, folder.path() / "a.vtp");
-    expectOrigin(*points->GetOutput());
-    EXPECT_EQ(points->GetOutput()->GetPointData()->GetArray("system")->GetTuple1(19), 3);
-    expectUnits(*points->GetOutput(), *points->GetOutput()->GetPointData());
-
-    writeHtg({{0, 0, 0}, 1, 0, {}}, origin, folder.path() / "a.htg");
-    const std::string text = files::wholeText(folder.path() / "a.htg", "an octree");  // VTK 9.1 does not read it
-    for (const char* name : {"method", "configuration", "dustbench_version", "TimeValue"})
-        EXPECT_NE(text.find("Name=\"" + std::string(name) + "\""), std::string::npos) << name;
 }
 
 TEST(VtiFile, ReadsBackEqual) {
