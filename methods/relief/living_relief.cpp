@@ -137,6 +137,10 @@ void LivingRelief::handOver(VolumeVisitor& visitor) const {
     const std::array fields{GridField{"depth_removed", "m", 1, columns.removed},
                             GridField{"deposit", "m", 1, columns.laid}, GridField{"hits", "", 1, columns.hits}};
     visitor.surface({panel_.name, map.columns(), map.rows(), columns.position, columns.colour, columns.height, fields});
+    if (!textures_) return;
+    const TextureMover::StateCopy state = textures_->copyState();
+    visitor.texture({panel_.name + " position", state.columns, state.rows, state.places});
+    visitor.texture({panel_.name + " velocity", state.columns, state.rows, state.velocities});
 }
 
 void LivingRelief::addTo(maths::Hash& hash) const {

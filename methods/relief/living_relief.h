@@ -60,7 +60,8 @@ class LivingRelief {
         picture_.draw(view, toWorld_, takesCarShadow_ ? shadow : nullptr);
     }
 
-    /// The current surface with its colour, `depth_removed` and `deposit` (m), and `hits`.
+    /// The current surface with its colour, `depth_removed` and `deposit` (m), and `hits`; with StateIn::texture also
+    /// the textures `NAME position` (panel frame, m; age in steps) and `NAME velocity` (m/s; Fate).
     void handOver(VolumeVisitor& visitor) const;
 
     [[nodiscard]] const WornSurface& surface() const { return surface_; }
