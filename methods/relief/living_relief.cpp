@@ -25,8 +25,9 @@ struct FacePlane {
 
 namespace {
 
-ReliefStyle with(ReliefStyle style, bool carShadow) {
+ReliefStyle with(ReliefStyle style, bool carShadow, bool dustShadow) {
     style.carShadow = carShadow;
+    style.dustShadow = dustShadow;
     return style;
 }
 
@@ -40,7 +41,7 @@ LivingRelief::LivingRelief(const scene::Scene& scene, const scene::Panel& panel,
       surface_(*panel.relief, ledger),
       pyramid_(surface_.depths(), ledger),
       particles_(panel, ledger),
-      picture_(device, scene, panel, pyramid_, with(settings.style, takesCarShadow_)) {
+      picture_(device, scene, panel, pyramid_, with(settings.style, takesCarShadow_, scene.lights.onDust)) {
     if (settings.state == StateIn::texture)
         textures_ = std::make_unique<TextureMover>(device, panel, surface_.depths());
 }
