@@ -117,6 +117,20 @@ void CollectedVolume::surface(const SurfaceVolume& volume) {
     surfaces_.push_back(std::move(surface));
 }
 
+void CollectedVolume::texture(const StateTexture& texture) {
+    const std::size_t count = static_cast<std::size_t>(texture.columns) * static_cast<std::size_t>(texture.rows);
+    if (texture.texels.size() != count)
+        throw std::runtime_error(fmt::format("texture {} of {}x{} texels: has {}, expected {}", texture.name,
+                                             texture.columns, texture.rows, texture.texels.size(), count));
+    for (std::size_t i = 0; i < count; ++i)
+        for (int channel = 0; channel < 4; ++channel)
+            if (!std::isfinite(texture.texels[i][channel]))
+                throw std::runtime_error(
+                    fmt::format("texture {}: channel {} of texel {} is not a finite number", texture.name, channel, i));
+    textures_.push_back(
+        {std::string(texture.name), texture.columns, texture.rows, {texture.texels.begin(), texture.texels.end()}});
+}
+
 namespace {
 
 /// Bounding box of all cells of a grid with extinction.

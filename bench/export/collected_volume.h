@@ -70,6 +70,12 @@ struct CollectedSurface {
     std::vector<CollectedField> fields;
 };
 
+struct CollectedTexture {
+    std::string name;
+    int columns, rows;
+    std::vector<glm::vec4> texels;
+};
+
 class CollectedVolume final : public VolumeVisitor {
  public:
     /// Throws std::runtime_error with the particle's serial if a puff has a non-finite number.
@@ -82,6 +88,8 @@ class CollectedVolume final : public VolumeVisitor {
     /// Throws std::runtime_error with surface and column if a column's size differs from the lattice's, or with the
     /// point if a number is not finite.
     void surface(const SurfaceVolume& volume) override;
+    /// Throws std::runtime_error with texture and texel if its size is wrong or a number is not finite.
+    void texture(const StateTexture& texture) override;
 
     [[nodiscard]] const std::vector<CollectedPuff>& puffs() const { return puffs_; }
     /// The particles provided; null if there were none, or only these ones.
@@ -94,6 +102,8 @@ class CollectedVolume final : public VolumeVisitor {
     [[nodiscard]] const std::vector<CollectedGrid>& grids() const { return grids_; }
     /// Surfaces are not part of the cloud: `bounds` and `isNothing` ignore them.
     [[nodiscard]] const std::vector<CollectedSurface>& surfaces() const { return surfaces_; }
+    /// Likewise.
+    [[nodiscard]] const std::vector<CollectedTexture>& textures() const { return textures_; }
     /// Bounding box of the cloud: whole voxels, and puffs to 4s around their centres (which omits 0.006 % of a puff's
     /// mass along each axis). Empty if there is no extinction.
     [[nodiscard]] std::optional<Box> bounds() const;
@@ -104,6 +114,7 @@ class CollectedVolume final : public VolumeVisitor {
     std::vector<CollectedOctree> octrees_;
     std::vector<CollectedGrid> grids_;
     std::vector<CollectedSurface> surfaces_;
+    std::vector<CollectedTexture> textures_;
 };
 
 }  // namespace dustbench::bench

@@ -81,6 +81,29 @@ TEST(SurfaceFile, HeightsReadBackFromTheTopRowDown) {
             EXPECT_EQ(picture.at(column, 3 - row), glm::vec4(glm::vec3(static_cast<float>(5 * row + column) / 20), 1));
 }
 
+TEST(StateTextureFile, ReadsBackAllFourChannelsAsTheyAre) {
+    const TestFolder folder;
+    CollectedTexture texture{"wall position", 3, 2, {}};
+    for (int i = 0; i < 6; ++i)
+        texture.texels.emplace_back(-0.5f * static_cast<float>(i), 1e-4f, 7, 100 * static_cast<float>(i));
+    writeTexture(texture, folder.path() / "a.exr");
+    const pictures::Image picture = pictures::readImage(folder.path() / "a.exr");
+    ASSERT_EQ(picture.width, 3);
+    ASSERT_EQ(picture.height, 2);
+    EXPECT_EQ(picture.pixels, texture.texels);
+}
+
+TEST(StateTextureFile, RefusesWrongSizesAndNumbersThatAreNone) {
+    std::vector<glm::vec4> texels(6, glm::vec4(1));
+    CollectedVolume volume;
+    volume.texture({"state", 3, 2, texels});
+    EXPECT_EQ(volume.textures().size(), 1u);
+    EXPECT_TRUE(volume.isNothing()) << "a texture is not part of the cloud";
+    EXPECT_THROW(volume.texture({"state", 2, 2, texels}), std::runtime_error);
+    texels[4].y = NAN;
+    EXPECT_THROW(volume.texture({"state", 3, 2, texels}), std::runtime_error);
+}
+
 TEST(CollectedSurfaces, RefuseColumnsOfAnotherSizeAndNumbersThatAreNone) {
     const CollectedSurface good = numberedSurface();
     const auto reason = [](const CollectedSurface& surface) {

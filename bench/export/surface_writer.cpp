@@ -78,4 +78,8 @@ void writeHeights(const CollectedSurface& surface, const std::filesystem::path& 
     pictures::writeImage(picture, file);
 }
 
+void writeTexture(const CollectedTexture& texture, const std::filesystem::path& file) {
+    pictures::writeImage({texture.columns, texture.rows, texture.texels}, file);
+}
+
 }  // namespace dustbench::bench

@@ -1,4 +1,4 @@
-// Writes a surface that a method changed, as a mesh and as a picture of its heights.
+// Writes a surface that a method changed, as a mesh and as a picture of its heights, and textures of a method's state.
 #pragma once
 
 #include <filesystem>
@@ -14,5 +14,8 @@ void writeSurface(const CollectedSurface& surface, const FileOrigin& origin, con
 
 /// The heights as a grey `.exr`, one pixel per point, rows from the top, as for the key `heights` of a relief.
 void writeHeights(const CollectedSurface& surface, const std::filesystem::path& file);
+
+/// The four channels as RGBA of an `.exr`, as they are, rows from the top in memory's order.
+void writeTexture(const CollectedTexture& texture, const std::filesystem::path& file);
 
 }  // namespace dustbench::bench

@@ -42,18 +42,35 @@ std::string fileWord(std::string name) {
     return name;
 }
 
+/// `METHOD_NAME`, unlike all in `parts`: names may differ only in replaced characters.
+std::string newPart(const ExportedMoment& moment, const std::string& name, std::set<std::string>& parts) {
+    std::string part = fmt::format("{}_{}", moment.method, fileWord(name));
+    while (!parts.insert(part).second) part += '_';
+    return part;
+}
+
 /// Writes each surface that the method changes, in addition to its own particles.
 void writeSurfaces(const ExportedMoment& moment, ExportFolder& folder) {
     std::set<std::string> parts;
     for (const CollectedSurface& surface : moment.volume.surfaces()) {
-        std::string part = fmt::format("{}_{}", moment.method, fileWord(surface.name));
-        while (!parts.insert(part).second) part += '_';  // names that differ only in replaced characters
+        const std::string part = newPart(moment, surface.name, parts);
         const std::string mesh = fmt::format("f{:06}_{}.vtp", moment.frame, part);
         writeSurface(surface, moment.origin(), folder.file(mesh));
         folder.addTo(part + ".pvd", Series::Kind::pvd, mesh, moment);
         const std::string heights = fmt::format("f{:06}_{}_heights.exr", moment.frame, part);
         writeHeights(surface, folder.file(heights));
         folder.addTo(part + "_heights.exr.series", Series::Kind::json, heights, moment);
+    }
+}
+
+/// Writes the textures that hold the method's state.
+void writeTextures(const ExportedMoment& moment, ExportFolder& folder) {
+    std::set<std::string> parts;
+    for (const CollectedTexture& texture : moment.volume.textures()) {
+        const std::string part = newPart(moment, texture.name, parts);
+        const std::string name = fmt::format("f{:06}_{}.exr", moment.frame, part);
+        writeTexture(texture, folder.file(name));
+        folder.addTo(part + ".exr.series", Series::Kind::json, name, moment);
     }
 }
 
@@ -116,8 +133,8 @@ Exporter describe() {
         .extension = "vtp",
         .kind = "particles",
         .contents =
-            "the particles that the method shows; with `relief` also the worn surfaces, and their heights as "
-            "`.exr`",
+            "the particles that the method shows; with `relief` also the worn surfaces, their heights and, with "
+            "`state=texture`, the textures of the particles' state as `.exr`",
         .programs = "ParaView, Blender (script below)",
         .place = 3};
     exporter.write = [](const ExportedMoment& moment, ExportFolder& folder) {
@@ -134,6 +151,7 @@ Exporter describe() {
                 folder.addTo(series, Series::Kind::pvd, name, moment);
         }
         writeSurfaces(moment, folder);
+        writeTextures(moment, folder);
     };
     return exporter;
 }

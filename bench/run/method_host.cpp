@@ -45,7 +45,8 @@ MethodHost::MethodHost(const World& world, gpu::Device& device, const MethodInfo
     layer_ = std::make_unique<gpu::Layer>(device, scene_->depth());
     composite_ = std::make_unique<draw::Composite>(device, width, height);
     method_->prepare(world.scene(), world.setup(), device);
-    dustThrowsShadow_ = world.scene().lights.onDust && !method_->stateHash();
+    // A method with a state of its own shows that instead of the shared dust, unless its state is that of the panels.
+    dustThrowsShadow_ = world.scene().lights.onDust && (!method_->stateHash() || info.drawsPanels);
 }
 
 void MethodHost::resize(int width, int height) {

@@ -1,5 +1,5 @@
-// A method's representation of the cloud (puffs, octree voxels or grid cells) and of the surfaces that it changes;
-// never pictures.
+// A method's representation of the cloud (puffs, octree voxels or grid cells), of the surfaces that it changes and of
+// the textures that hold its state; never pictures.
 //
 // Units: metres, metres per second, seconds, extinction per metre. Frame: world. All data passed on are valid during
 // the call only.
@@ -97,6 +97,13 @@ struct SurfaceVolume {
     std::span<const GridField> fields;    ///< further quantities of the points
 };
 
+/// A picture of a method's state: four numbers for each texel.
+struct StateTexture {
+    std::string_view name;  ///< unique within the method: `wall_position`
+    int columns, rows;
+    std::span<const glm::vec4> texels;  ///< row by row; the method says what they mean
+};
+
 /// Receives a cloud's representation. A method calls one function for each part of its cloud, usually a single call.
 class DUSTBENCH_API VolumeVisitor {
  public:
@@ -106,6 +113,8 @@ class DUSTBENCH_API VolumeVisitor {
     virtual void grid(const GridVolume& volume) = 0;
     /// The default ignores it.
     virtual void surface(const SurfaceVolume&) {}
+    /// The default ignores it.
+    virtual void texture(const StateTexture&) {}
 };
 
 }  // namespace dustbench

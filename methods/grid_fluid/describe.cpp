@@ -85,6 +85,7 @@ GridFluidSettings settingsOf(const ParameterValues& values) {
         throw InputError("parameter scheme: got demo with fluid '" + setup.name +
                          "', which follows the vehicle, allowed: ours, since the demo's box cannot move");
     settings.solverBackend = values.choice("solver", solverBackends);
+    settings.proxyCells = values.real("proxy_cells");
     settings.trail = values.boolean("trail");
     settings.framesPerStep = static_cast<int>(values.integer("frames_per_step"));
 
@@ -133,6 +134,10 @@ MethodInfo describe() {
         .real("cooling", asTheFileSays, asTheFileSays, 1000, "1/s", "rate of heat loss; -1: as in the file")
         .real("decay", asTheFileSays, asTheFileSays, 1000, "1/s", "rate of density loss; -1: as in the file")
         .real("diffusion", asTheFileSays, asTheFileSays, 1000, "m2/s", "viscosity; -1: as in the file")
+        .real(
+            "proxy_cells", 0, 0, 16, "cells",
+            "edge of the cubes in which the vertices of solids and of the car are merged before they are voxelised; 0: "
+            "none are")
         .choice("flame", ofTheFluid, flameNames(),
                 "colour and brightness of fire by its freshness: a table of rows, or a black body by Planck's law; "
                 "preset: as in the fluid's file")

@@ -17,8 +17,9 @@ glm::dmat4 worldToCells(const flow::FluidBox& box) {
 
 }  // namespace
 
-FluidSolids::FluidSolids(const scene::Scene& scene, glm::ivec3 cells, MemoryAccount& account, flow_gl::CellsOnRays* gpu)
-    : scene_(scene), cells_(cells, account, gpu) {
+FluidSolids::FluidSolids(const scene::Scene& scene, glm::ivec3 cells, MemoryAccount& account, flow_gl::CellsOnRays* gpu,
+                         double proxyCells)
+    : scene_(scene), proxyCells_(proxyCells), cells_(cells, account, gpu) {
     constexpr std::size_t maximum = std::numeric_limits<std::uint8_t>::max() - firstSolid + std::size_t{1};
     const auto moving = static_cast<std::size_t>(std::ranges::count_if(
         scene.solids, [](const scene::Solid& solid) { return solid.motion != scene::SolidMotion::still; }));
@@ -34,9 +35,9 @@ flow::SolidMask FluidSolids::voxelise(const flow::FluidBox& box, const scene::Sc
     addSolids(box, state);
     if (scene_.vehicle) {
         const scene::VehiclePoses poses = scene::vehiclePoses(*scene_.vehicle, state.vehicle);
-        addMoving(box, *scene_.vehicle->body.mesh, poses.body, carBody);
+        addMoving(box, *scene_.vehicle->body.mesh, *scene_.vehicle->body.mesh, poses.body, carBody);
         for (std::size_t w = 0; w < poses.wheels.size(); ++w)
-            addMoving(box, *scene_.vehicle->wheel.mesh, poses.wheels[w], firstWheel + w);
+            addMoving(box, *scene_.vehicle->wheel.mesh, *scene_.vehicle->wheel.mesh, poses.wheels[w], firstWheel + w);
     }
     cells_.finish();
     return {cells_.bodies(), motions_, cells_.velocities()};
@@ -45,14 +46,14 @@ flow::SolidMask FluidSolids::voxelise(const flow::FluidBox& box, const scene::Sc
 void FluidSolids::addSolids(const flow::FluidBox& box, const scene::SceneState& state) {
     std::size_t body = firstSolid;
     for (std::size_t n = 0; n < scene_.solids.size(); ++n) {
-        const scene::Mesh& mesh = scene::solidMesh(scene_, state, n);
+        const scene::Mesh &mesh = scene::solidMesh(scene_, state, n), &rest = *scene_.solids[n].mesh;
         const scene::SolidPose& pose = scene::solidPose(scene_, state, n);
         if (scene_.solids[n].motion == scene::SolidMotion::still)
-            cells_.add(mesh, worldToCells(box) * glm::dmat4(pose.toWorld), still);
+            cells_.add(voxelised(box, rest, mesh, pose, {}).mesh, worldToCells(box) * glm::dmat4(pose.toWorld), still);
         else if (n < state.solids.size() && state.solids[n].shape)
-            addMoving(box, mesh, pose, body++, state.solids[n].shape->velocities);
+            addMoving(box, rest, mesh, pose, body++, state.solids[n].shape->velocities);
         else
-            addMoving(box, mesh, pose, body++);
+            addMoving(box, rest, mesh, pose, body++);
     }
 }
 
@@ -69,8 +70,20 @@ void FluidSolids::addGround(const flow::FluidBox& box) {
         }
 }
 
-void FluidSolids::addMoving(const flow::FluidBox& box, const scene::Mesh& mesh, const scene::SolidPose& pose,
-                            std::size_t body, std::span<const glm::vec3> deforming) {
+FluidSolids::Voxelised FluidSolids::voxelised(const flow::FluidBox& box, const scene::Mesh& rest,
+                                              const scene::Mesh& mesh, const scene::SolidPose& pose,
+                                              std::span<const glm::vec3> deforming) {
+    if (!(proxyCells_ > 0)) return {mesh, deforming};
+    const double scale = static_cast<double>(glm::length(glm::vec3(pose.toWorld[0])));
+    const auto edge = static_cast<float>(proxyCells_ * box.spacingMetres / scale);
+    ProxyMesh& proxy = proxies_.try_emplace(&rest, rest, edge).first->second;
+    if (&mesh != &rest) proxy.follow(mesh, deforming);
+    return {proxy.mesh(), proxy.velocities()};
+}
+
+void FluidSolids::addMoving(const flow::FluidBox& box, const scene::Mesh& rest, const scene::Mesh& fine,
+                            const scene::SolidPose& pose, std::size_t body, std::span<const glm::vec3> velocities) {
+    const auto [mesh, deforming] = voxelised(box, rest, fine, pose, velocities);
     const glm::dmat4 toCells = worldToCells(box) * glm::dmat4(pose.toWorld);
     // v = v₀ + ω×(p − p₀) + R·v′
     vertexVelocities_.clear();

@@ -4,21 +4,24 @@
 // Units: SI. Frame: world. Owns: a byte for each cell, and a velocity where a solid deforms. Threads: one at a time.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "methods/contract/scene.h"
 #include "methods/grid_fluid/flow/fluid_box.h"
 #include "methods/grid_fluid/flow/solid_cells.h"
 #include "methods/grid_fluid/mesh_cells.h"
+#include "methods/grid_fluid/proxy_mesh.h"
 
 namespace dustbench::grid_fluid {
 
 class FluidSolids {
  public:
-    /// `scene` must outlive this; so must `gpu`, which finds the cells if it is given. Throws InputError if more solids
-    /// move than can be numbered.
+    /// `scene` must outlive this; so must `gpu`, which finds the cells if it is given. `proxyCells`: solids and vehicle
+    /// are voxelised as proxies whose vertices are this many cells apart; 0: as they are. Throws InputError if more
+    /// solids move than can be numbered.
     FluidSolids(const scene::Scene& scene, glm::ivec3 cells, MemoryAccount& account,
-                flow_gl::CellsOnRays* gpu = nullptr);
+                flow_gl::CellsOnRays* gpu = nullptr, double proxyCells = 0);
 
     /// Voxelises the solids at their current poses into the box at its current position. Valid until the next call.
     [[nodiscard]] flow::SolidMask voxelise(const flow::FluidBox& box, const scene::SceneState& state);
@@ -28,10 +31,20 @@ class FluidSolids {
     enum Body : std::uint8_t { still = 1, carBody, firstWheel, firstSolid = firstWheel + 4 };
     void addGround(const flow::FluidBox& box);
     void addSolids(const flow::FluidBox& box, const scene::SceneState& state);
-    void addMoving(const flow::FluidBox& box, const scene::Mesh& mesh, const scene::SolidPose& pose, std::size_t body,
-                   std::span<const glm::vec3> deforming = {});
+    /// `rest`: the mesh at rest, which is the same for a rigid one.
+    void addMoving(const flow::FluidBox& box, const scene::Mesh& rest, const scene::Mesh& mesh,
+                   const scene::SolidPose& pose, std::size_t body, std::span<const glm::vec3> deforming = {});
+    /// The mesh that is voxelised, with its velocities.
+    struct Voxelised {
+        const scene::Mesh& mesh;
+        std::span<const glm::vec3> deforming;
+    };
+    [[nodiscard]] Voxelised voxelised(const flow::FluidBox& box, const scene::Mesh& rest, const scene::Mesh& mesh,
+                                      const scene::SolidPose& pose, std::span<const glm::vec3> deforming);
 
     const scene::Scene& scene_;
+    double proxyCells_;
+    std::map<const scene::Mesh*, ProxyMesh> proxies_;  ///< by the mesh at rest
     MeshCells cells_;
     std::vector<flow::BodyMotion> motions_;  ///< by Body, starting at `still`
     std::vector<glm::vec3> vertexVelocities_;

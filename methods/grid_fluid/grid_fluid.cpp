@@ -61,7 +61,8 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
     }
     solver_ = makeFlowSolver(solver, settings_.scheme, burns, onGpu, device, ledger_);
     if (onGpu) rays_.emplace(device, solver.box.cells);
-    solids_.emplace(scene, solver.box.cells, ledger_.account("solids"), rays_ ? &*rays_ : nullptr);
+    solids_.emplace(scene, solver.box.cells, ledger_.account("solids"), rays_ ? &*rays_ : nullptr,
+                    settings_.proxyCells);
     emitters_.emplace(settings_.setup.sources, scene, setup.seed);
     if (!settings_.setup.followsVehicle) requireSourcesInside({});
     if (scene.lights.onDust) raycast::lightDust(settings_.picture, scene);

@@ -27,7 +27,8 @@ struct GridFluidSettings {
     FlowScheme scheme = FlowScheme::ours;
     SolverBackend solverBackend = SolverBackend::cpu;
     int framesPerStep = 1;
-    bool trail = true;  ///< keeps the dust that leaves a box that follows the vehicle
+    double proxyCells = 0;  ///< of FluidSolids
+    bool trail = true;      ///< keeps the dust that leaves a box that follows the vehicle
     raycast::RaycastSettings picture;
 };
 

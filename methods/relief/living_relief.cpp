@@ -25,8 +25,9 @@ struct FacePlane {
 
 namespace {
 
-ReliefStyle with(ReliefStyle style, bool carShadow) {
+ReliefStyle with(ReliefStyle style, bool carShadow, bool dustShadow) {
     style.carShadow = carShadow;
+    style.dustShadow = dustShadow;
     return style;
 }
 
@@ -40,7 +41,7 @@ LivingRelief::LivingRelief(const scene::Scene& scene, const scene::Panel& panel,
       surface_(*panel.relief, ledger),
       pyramid_(surface_.depths(), ledger),
       particles_(panel, ledger),
-      picture_(device, scene, panel, pyramid_, with(settings.style, takesCarShadow_)) {
+      picture_(device, scene, panel, pyramid_, with(settings.style, takesCarShadow_, scene.lights.onDust)) {
     if (settings.state == StateIn::texture)
         textures_ = std::make_unique<TextureMover>(device, panel, surface_.depths());
 }
@@ -137,6 +138,10 @@ void LivingRelief::handOver(VolumeVisitor& visitor) const {
     const std::array fields{GridField{"depth_removed", "m", 1, columns.removed},
                             GridField{"deposit", "m", 1, columns.laid}, GridField{"hits", "", 1, columns.hits}};
     visitor.surface({panel_.name, map.columns(), map.rows(), columns.position, columns.colour, columns.height, fields});
+    if (!textures_) return;
+    const TextureMover::StateCopy state = textures_->copyState();
+    visitor.texture({panel_.name + " position", state.columns, state.rows, state.places});
+    visitor.texture({panel_.name + " velocity", state.columns, state.rows, state.velocities});
 }
 
 void LivingRelief::addTo(maths::Hash& hash) const {

@@ -55,12 +55,13 @@ class LivingRelief {
     void age();
     void upload();
 
-    /// `shadow`: the car's shadow; null in a scene without a car.
-    void draw(const scene::View& view, const CarShadow* shadow) {
-        picture_.draw(view, toWorld_, takesCarShadow_ ? shadow : nullptr);
+    /// `shadow`: the car's shadow; null in a scene without a car. `dust`: the dust's, if the scene's lights are on it.
+    void draw(const scene::View& view, const CarShadow* shadow, const draw::DustShadow* dust) {
+        picture_.draw(view, toWorld_, takesCarShadow_ ? shadow : nullptr, dust);
     }
 
-    /// The current surface with its colour, `depth_removed` and `deposit` (m), and `hits`.
+    /// The current surface with its colour, `depth_removed` and `deposit` (m), and `hits`; with StateIn::texture also
+    /// the textures `NAME position` (panel frame, m; age in steps) and `NAME velocity` (m/s; Fate).
     void handOver(VolumeVisitor& visitor) const;
 
     [[nodiscard]] const WornSurface& surface() const { return surface_; }

@@ -5,6 +5,7 @@
 
 #include "methods/contract/errors.h"
 #include "methods/contract/volume.h"
+#include "methods/kit/light/sun_depth.h"
 
 namespace dustbench::relief {
 namespace {
@@ -21,9 +22,11 @@ Relief::Relief(const Settings& settings) : settings_(settings) {}
 
 void Relief::prepare(const scene::Scene& scene, const RunSetup&, gpu::Device& device) {
     device_ = &device;
+    scene_ = &scene;
     for (const scene::Panel& panel : scene.panels)
         reliefs_.emplace_back(scene, panel, settings_.relief, device, ledger_);
     if (scene.vehicle && settings_.relief.style.shadow) carShadow_.emplace(device, scene);
+    if (scene.lights.onDust) dustShadow_.emplace(device, scene.lights.toSun);
     dust_.emplace(device, draw::BillboardStyle{});
     grains_.emplace(device, draw::BillboardStyle{});
 }
@@ -36,7 +39,11 @@ void Relief::update(const Frame& frame) {
     const auto timing = frame.clock.measure(Stage::upload);
     for (LivingRelief& relief : reliefs_) relief.upload();
     uploadDust(frame.dust, glm::vec3(frame.view.camera.eye));
-    uploadGrains();
+    if (dustShadow_) {
+        copyDust(frame.dust);
+        dustShadow_->set(handedOver_);
+    }
+    uploadGrains(frame);
 }
 
 void Relief::simulate(const Frame& frame) {
@@ -68,14 +75,36 @@ void Relief::uploadDust(const Puffs& dust, const glm::vec3& eye) {
     dust_->unmap();
 }
 
-void Relief::uploadGrains() {
+/// Light of the sun through the dust outside the reliefs, and of the sky; the relief's own shadow is neglected.
+std::vector<glm::vec3> Relief::litGrains(const Frame& frame) const {
+    constexpr double neglectedDepth = 1e-6;
+    const light::SunDepth depths(handedOver_, glm::dvec3(scene_->lights.toSun), 1, neglectedDepth);
+    std::vector<glm::vec3> colours;
+    for (const LivingRelief& relief : reliefs_)
+        for (const glm::vec4& place : relief.particles().places()) {
+            const glm::dvec3 world(relief.toWorld() * glm::dvec4(glm::dvec3(place), 1));
+            const glm::dvec3 sight = glm::normalize(world - frame.view.camera.eye);
+            const auto cosine = static_cast<float>(glm::dot(sight, glm::dvec3(scene_->lights.toSun)));
+            const auto transmittance = static_cast<float>(std::exp(-depths.at(world)));
+            colours.push_back(frame.dust.colourOfAll * scene::dustLight(*scene_, transmittance, cosine));
+        }
+    return colours;
+}
+
+void Relief::uploadGrains(const Frame& frame) {
     std::size_t count = 0;
     for (const LivingRelief& relief : reliefs_) count += relief.particles().size();
-    float* value = grains_->map(count, grains_->layout(false)).data();
+    const bool lit = dustShadow_ && count > 0;
+    const std::vector<glm::vec3> colours = lit ? litGrains(frame) : std::vector<glm::vec3>();
+    float* value = grains_->map(count, grains_->layout(lit)).data();
+    std::size_t number = 0;
     for (const LivingRelief& relief : reliefs_)
         for (const glm::vec4& place : relief.particles().places()) {
             const glm::vec3 world(relief.toWorld() * glm::dvec4(glm::dvec3(place), 1));
             for (const float each : {world.x, world.y, world.z, settings_.grainMetres, grainOpacity}) *value++ = each;
+            if (!lit) continue;
+            const glm::vec3& colour = colours[number++];
+            for (const float each : {colour.r, colour.g, colour.b}) *value++ = each;
         }
     grains_->unmap();
 }
@@ -87,7 +116,8 @@ void Relief::draw(const Frame& frame, gpu::Layer& layer) {
     target_->begin(layer.sceneDepth());
     {
         const auto detail = frame.clock.measureDetail("reliefs");
-        for (LivingRelief& relief : reliefs_) relief.draw(frame.view, carShadow_ ? &*carShadow_ : nullptr);
+        for (LivingRelief& relief : reliefs_)
+            relief.draw(frame.view, carShadow_ ? &*carShadow_ : nullptr, dustShadow_ ? &*dustShadow_ : nullptr);
     }
     {
         const auto detail = frame.clock.measureDetail("particles");
@@ -193,6 +223,7 @@ MethodInfo describe() {
         "Dust that hits the scene's panels moves within their reliefs, hits their surface and wears it away.";
     info.source = "Bergeron";
     info.drawsPanels = true;
+    info.takesLights = true;
     info.parameters
         .choice("motion", MotionLaw::fixed, motionLaws,
                 "paper: each step adds the displacement over the particle's whole age, which compounds; fixed: adds "

@@ -12,6 +12,7 @@
 #include "methods/contract/method.h"
 #include "methods/kit/draw/billboards.h"
 #include "methods/kit/draw/depth_sort.h"
+#include "methods/kit/draw/dust_shadow.h"
 #include "methods/kit/particles/particle_store.h"
 #include "methods/relief/drawing/scene_with_reliefs.h"
 #include "methods/relief/living_relief.h"
@@ -41,7 +42,8 @@ class Relief final : public Method {
  private:
     void simulate(const Frame& frame);
     void uploadDust(const Puffs& dust, const glm::vec3& eye);
-    void uploadGrains();
+    void uploadGrains(const Frame& frame);
+    [[nodiscard]] std::vector<glm::vec3> litGrains(const Frame& frame) const;
     void copyDust(const Puffs& dust) const;
     void copyGrains(double stepSeconds) const;
 
@@ -54,6 +56,8 @@ class Relief final : public Method {
     mutable particles::ParticleStore handedOver_{ledger_};  ///< particles last passed on by `volume`
     std::deque<LivingRelief> reliefs_;
     std::optional<CarShadow> carShadow_;
+    std::optional<draw::DustShadow> dustShadow_;  ///< if the scene's lights are on the dust
+    const scene::Scene* scene_ = nullptr;
     std::optional<SceneWithReliefs> target_;
     std::optional<draw::Billboards> dust_, grains_;
     gpu::Device* device_ = nullptr;

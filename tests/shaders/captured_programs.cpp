@@ -82,7 +82,6 @@ const std::vector<Product> products{
     {"relief", {}, {"march", "shadow"}},
     {"relief", {}, {"state"}},
     {"octree_recursive", {}, {"render", "crossfade"}, true},
-    {"octree_recursive", {{"noise", "0.5"}}, {"render", "crossfade"}, true},
     {"grid_fluid", {{"scheme", "demo"}, {"fluid", "fire"}, {"solver", "opengl"}, {"backend", "gl"}}, {}},
     {"octree_search", {}, {"render", "crossfade"}, true},
     {"octree_search", {{"layout", "gpu"}}, {"render"}, true},

@@ -57,8 +57,8 @@ class SparseDust : public TestMoment {
 };
 
 /// The picture of the dust as voxels; `shown` receives a copy of the noise by voxel.
-pictures::Image voxelsOf(SparseDust& moment, Render render, const draw::NoiseSettings& noise,
-                         std::vector<draw::NoisePlace>* shown = nullptr, bool fades = false) {
+pictures::Image drawnVoxels(SparseDust& moment, Render render, const draw::NoiseSettings& noise,
+                            std::vector<draw::NoisePlace>* shown = nullptr, bool fades = false) {
     DustSettings settings;
     settings.render = render;
     settings.noise = noise;
@@ -86,7 +86,7 @@ double rmsOfAlpha(const pictures::Image& a, const pictures::Image& b) {
 TEST(OctreeNoise, KeepsTheMeanOpacityHoweverVoxelsAreDrawn) {
     SparseDust moment;
     for (const Render render : {Render::billboards, Render::circles, Render::cubes, Render::raycast}) {
-        const pictures::Image plain = voxelsOf(moment, render, {}), noisy = voxelsOf(moment, render, {1, 0.4f});
+        const pictures::Image plain = drawnVoxels(moment, render, {}), noisy = drawnVoxels(moment, render, {1, 0.4f});
         EXPECT_NEAR(summedDepth(noisy) / summedDepth(plain), 1, 0.08) << static_cast<int>(render);
         EXPECT_GT(rmsOfAlpha(noisy, plain), 0.002) << static_cast<int>(render);
     }
@@ -96,10 +96,10 @@ TEST(OctreeNoise, MovesWithTheParticlesWhileTheVoxelsStay) {
     const draw::NoiseSettings noise{1, 0.4f};
     SparseDust moment;
     std::vector<draw::NoisePlace> before, after;
-    const pictures::Image first = voxelsOf(moment, Render::billboards, noise, &before);
+    const pictures::Image first = drawnVoxels(moment, Render::billboards, noise, &before);
     const glm::vec3 step(0.004f, 0, 0.002f);  // within the same voxels
     for (std::size_t i = 0; i < moment.dust.size(); ++i) moment.dust.x[i] += step.x, moment.dust.z[i] += step.z;
-    const pictures::Image second = voxelsOf(moment, Render::billboards, noise, &after);
+    const pictures::Image second = drawnVoxels(moment, Render::billboards, noise, &after);
     ASSERT_EQ(before.size(), moment.dust.size());
     ASSERT_EQ(after.size(), before.size());
     for (std::size_t i = 0; i < before.size(); ++i) {
@@ -113,8 +113,8 @@ TEST(OctreeNoise, MovesWithTheParticlesWhileTheVoxelsStay) {
 TEST(OctreeNoise, IsKeptByVoxelsThatFade) {
     const draw::NoiseSettings noise{0.7f, 0.4f};
     SparseDust moment;
-    EXPECT_LT(rmsOfAlpha(voxelsOf(moment, Render::billboards, noise),
-                         voxelsOf(moment, Render::billboards, noise, nullptr, true)),
+    EXPECT_LT(rmsOfAlpha(drawnVoxels(moment, Render::billboards, noise),
+                         drawnVoxels(moment, Render::billboards, noise, nullptr, true)),
               1e-6);
 }
 

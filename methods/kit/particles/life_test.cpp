@@ -173,5 +173,51 @@ TEST(CollisionDeath, HappensInAPositionStepToThePointsThatTouch) {
     }
 }
 
+TEST(OutOfReach, KillsWhoIsFartherFromTheSourceThanItsReach) {
+    auto system = test::systemFrom(
+        atOnce(300,
+               "position = { part = \"point\", at = \"place\", place = [1, 2, 3] }\n"
+               "velocity = { part = \"random\", speed = 2, variation = 0 }\nlife = [ " +
+                   immortal + ", { part = \"out_of_reach\", place = [1, 2, 3], reach_metres = 1.51 } ]\n"));
+    float nearest = 0, farthest = 0;
+    for (int step = 0; step < 200; ++step) {
+        live(system, 1);
+        if (system.store().empty()) break;
+        ASSERT_EQ(system.store().size(), 300u) << "all are as far";
+        nearest = INFINITY, farthest = 0;
+        for (std::size_t i = 0; i < system.store().size(); ++i) {
+            const float distance = glm::distance(system.store().position(i), glm::vec3(1, 2, 3));
+            nearest = std::min(nearest, distance);
+            farthest = std::max(farthest, distance);
+        }
+    }
+    EXPECT_TRUE(system.store().empty());
+    EXPECT_GT(farthest, 1.51f) << "nobody dies within";
+    EXPECT_LT(nearest, 1.51f + 2 * static_cast<float>(lifeStep) + 1e-4f) << "and nobody lives beyond for a whole step";
+}
+
+TEST(OutOfReach, FollowsTheNearestWheel) {
+    auto system = test::systemFrom(
+        atOnce(1,
+               "position = { part = \"point\", at = \"place\", place = [0, 0.1, 0] }\n"
+               "velocity = { part = \"fixed\", speed = 0 }\nlife = [ " +
+                   immortal + ", { part = \"out_of_reach\", from = \"wheels\", reach_metres = 3 } ]\n"));
+    const scene::Scene scene = test::sceneWithCar();
+    bool lived = true;
+    for (int i = 1; i <= 64; ++i) {
+        const scene::SceneState state = test::drivingStraight(i * lifeStep, 10);
+        double nearest = INFINITY;
+        for (const scene::WheelState& wheel : state.vehicle.wheels)
+            nearest = std::min(nearest, glm::distance(wheel.contact, glm::dvec3(0, 0.1, 0)));
+        system.update({.scene = scene, .state = state, .stepSeconds = lifeStep});
+        const bool lives = !system.store().empty();
+        if (std::abs(nearest - 3) > 0.2) {
+            EXPECT_EQ(lives, lived && nearest < 3) << i;
+        }
+        lived = lived && lives;
+    }
+    EXPECT_FALSE(lived);
+}
+
 }  // namespace
 }  // namespace dustbench::particles

@@ -125,6 +125,22 @@ TEST(DiscSource, IsUniform) {
     }
 }
 
+TEST(RectangleSource, IsUniformInItsPlane) {
+    for (const std::uint64_t seed : seeds) {
+        const auto flat = placesOf("part = \"rectangle\", length_metres = 4, width_metres = 1", seed);
+        expectUniform(mapped(flat, [](const auto& p) { return p.x; }), -2, 2);
+        expectUniform(mapped(flat, [](const auto& p) { return p.z; }), -0.5, 0.5);
+        for (const glm::dvec3& p : flat) ASSERT_NEAR(p.y, 0, 1e-6);
+        double product = 0;  // the sides are independent: 4.9 standard errors of a product of two uniform numbers
+        for (const glm::dvec3& p : flat) product += p.x * p.z / static_cast<double>(flat.size());
+        EXPECT_NEAR(product, 0, 4.9 * std::sqrt(16.0 / 12 / 12 / 20000));
+        const glm::dvec3 normal = glm::normalize(glm::dvec3(0.5, 1, -0.5));
+        for (const glm::dvec3& p :
+             placesOf("part = \"rectangle\", length_metres = 4, width_metres = 1, normal = [0.5, 1, -0.5]", seed, 500))
+            ASSERT_NEAR(glm::dot(p, normal), 0, 2e-6);
+    }
+}
+
 class MeshFile : public testing::Test {
  protected:
     /// Writes an OBJ file and returns a source that uses it.

@@ -63,9 +63,15 @@ float pastCar(vec3 metres) {
 float pastCar(vec3 metres) { return 1.0; }
 #endif
 
+#ifdef DUST
+float pastDust(vec3 metres) { return dustShare(metres); }
+#else
+float pastDust(vec3 metres) { return 1.0; }
+#endif
+
 vec3 shaded(vec3 metres, vec3 normal, vec3 albedo) {
     float facing = max(dot(normal, toSun), 0.0);
-    float lit = facing > 0.0 ? sunShare(metres, normal) * pastCar(metres) : 0.0;
+    float lit = facing > 0.0 ? sunShare(metres, normal) * pastCar(metres) * pastDust(metres) : 0.0;
     vec3 around = mix(groundLight, ambient, 0.5 + 0.5 * dot(normal, worldUp));
     vec3 light = albedo * (sun * (facing * lit) + around);
     float clear = exp(-hazePerMetre * distance(metres, eye));

@@ -1,11 +1,13 @@
 #include "methods/relief/drawing/relief_pass.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string>
 
+#include "draw_shaders.h"
 #include "methods/kit/draw/ground_pass.h"
 #include "methods/kit/draw/panel_pass.h"
 #include "methods/kit/gpu/draw_call.h"
@@ -25,6 +27,7 @@ std::map<std::string, std::string> definitions(const ReliefStyle& style, const s
     }
     if (style.shadow) result.emplace("SHADOW", "1");
     if (style.carShadow) result.emplace("CAR_SHADOW", "1");
+    if (style.dustShadow) result.emplace("DUST", "1");
     return result;
 }
 
@@ -34,15 +37,15 @@ std::uint8_t toByte(float share) {
 
 gpu::Program programFor(gpu::Device& device, const ReliefStyle& style, const scene::Relief& relief) {
     namespace shaders = relief_drawing_shaders;
-    if (style.march == March::mesh)
-        return {device,
-                "relief mesh",
-                {shaders::relief_march_glsl, shaders::relief_light_glsl, shaders::relief_mesh_vert,
-                 shaders::relief_mesh_frag},
-                definitions(style, relief)};
-    return {device,
-            "relief",
-            {shaders::relief_march_glsl, shaders::relief_light_glsl, shaders::relief_vert, shaders::relief_frag},
+    const bool mesh = style.march == March::mesh;
+    const std::array files{shaders::relief_march_glsl,
+                           shaders::relief_dust_glsl,
+                           draw_shaders::error_function_glsl,
+                           draw_shaders::opaque_dust_glsl,
+                           shaders::relief_light_glsl,
+                           mesh ? shaders::relief_mesh_vert : shaders::relief_vert,
+                           mesh ? shaders::relief_mesh_frag : shaders::relief_frag};
+    return {device, mesh ? "relief mesh" : "relief", std::span<const gpu::ShaderFile>(files),
             definitions(style, relief)};
 }
 
@@ -139,7 +142,8 @@ void ReliefPass::setLight(const glm::dmat4& panelToWorld) {
     program_.set("dustColour", scene_.dustAlbedo);
 }
 
-void ReliefPass::draw(const scene::View& view, const glm::dmat4& panelToWorld, const CarShadow* shadow) {
+void ReliefPass::draw(const scene::View& view, const glm::dmat4& panelToWorld, const CarShadow* shadow,
+                      const draw::DustShadow* dust) {
     if (style_.carShadow != (shadow != nullptr))
         throw std::invalid_argument("ReliefPass: expected the car's shadow if and only if the style uses it");
     scene::View centred = view;
@@ -158,6 +162,13 @@ void ReliefPass::draw(const scene::View& view, const glm::dmat4& panelToWorld, c
     if (shadow) {
         program_.set("panelToShadow", shadow->fromPanel(panelToWorld));
         shadow->bind(2);
+    }
+    if (style_.dustShadow != (dust != nullptr))
+        throw std::invalid_argument("ReliefPass: expected the dust's shadow if and only if the style uses it");
+    if (dust) {
+        const glm::dmat4 turn{glm::dmat3(panelToWorld)};
+        program_.set("eyeToDust", dust->eyeToTexture(glm::dvec3(panelToWorld[3])) * glm::mat4(turn));
+        dust->columns().bind(5);
     }
     bindSurface();
     const gpu::DrawState opaque{.depthTest = true, .depthWrite = true};

@@ -9,6 +9,7 @@
 
 #include "methods/contract/choices.h"
 #include "methods/contract/scene.h"
+#include "methods/kit/draw/dust_shadow.h"
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/device.h"
 #include "methods/kit/gpu/program.h"
@@ -33,6 +34,7 @@ struct ReliefStyle {
     int linearSteps = 15, binarySteps = 5;  ///< of March::paper
     bool shadow = true;                     ///< the relief shades itself
     bool carShadow = false;                 ///< the car casts its shadow on it
+    bool dustShadow = false;                ///< the dust casts its shadow on it
     bool whiteHits = false;                 ///< the paper's mark of a hit
     /// Removed and deposited material of this share of the depth is shown at full strength.
     float visibleShare = 0.05f;
@@ -46,8 +48,10 @@ class ReliefPass {
     /// Copies the surface's depths and marks to the GPU. `changed`: the texels that differ from the last call. Returns
     /// how many bytes it copied.
     std::size_t upload(const WornSurface& surface, const DepthPyramid& pyramid, const TexelRectangle& changed);
-    /// Draws into the bound target, with depth test and depth writes. `shadow`: only for a style with `carShadow`.
-    void draw(const scene::View& view, const glm::dmat4& panelToWorld, const CarShadow* shadow = nullptr);
+    /// Draws into the bound target, with depth test and depth writes. `shadow`: only for a style with `carShadow`;
+    /// `dust`: only for one with `dustShadow`.
+    void draw(const scene::View& view, const glm::dmat4& panelToWorld, const CarShadow* shadow = nullptr,
+              const draw::DustShadow* dust = nullptr);
 
     /// The unlit colour of a texel as drawn: linear RGB.
     [[nodiscard]] glm::vec3 colourOf(const WornSurface& surface, std::size_t texel) const;

@@ -105,7 +105,22 @@ void TextureMover::readBack(const MovingColumns& columns) {
     }
 }
 
+TextureMover::StateCopy TextureMover::copyState() const {
+    StateCopy copy{stateColumns, rowsFor(std::max<std::size_t>(used_, 1)), {}, {}};
+    const auto texels = static_cast<std::size_t>(copy.columns) * static_cast<std::size_t>(copy.rows);
+    const auto take = [&](const gpu::Texture& texture, std::vector<glm::vec4>& into) {
+        const std::vector<float> values = texture.readFloats();
+        into.assign(texels, glm::vec4(0));
+        for (std::size_t n = 0; n < used_; ++n)
+            into[n] = {values[4 * n], values[4 * n + 1], values[4 * n + 2], values[4 * n + 3]};
+    };
+    take(now_.places, copy.places);
+    take(now_.velocities, copy.velocities);
+    return copy;
+}
+
 void TextureMover::move(const MovingColumns& columns, const DepthMap&, const StepSettings& settings) {
+    used_ = columns.places.size();
     if (columns.places.empty()) return;
     makeRoom(columns.places.size());
     writeSources(columns);

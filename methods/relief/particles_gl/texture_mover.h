@@ -31,6 +31,16 @@ class TextureMover final : public Mover {
     /// Moves the textures' particles and copies them into the columns. `surface` must be the one uploaded last.
     void move(const MovingColumns& columns, const DepthMap& surface, const StepSettings& settings) override;
 
+    /// The two textures after the last step, read back. Texels without a particle are 0.
+    struct StateCopy {
+        int columns, rows;
+        std::vector<glm::vec4> places;      ///< w: age in steps
+        std::vector<glm::vec4> velocities;  ///< w: Fate; those of ended particles are dropped in the next step
+    };
+    [[nodiscard]] StateCopy copyState() const;
+    /// Texels of the living particles, in the order of the columns.
+    [[nodiscard]] std::span<const std::int32_t> living() const { return living_; }
+
     [[nodiscard]] std::size_t gpuBytes() const;
 
  private:
@@ -47,6 +57,7 @@ class TextureMover final : public Mover {
     gpu::Buffer plate_, depths_, sources_, newborns_;
     State now_, next_;
     std::vector<std::int32_t> living_;  ///< texels of the living particles, in order
+    std::size_t used_ = 0;              ///< texels written in the last step
 };
 
 }  // namespace dustbench::relief

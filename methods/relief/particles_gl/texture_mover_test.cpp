@@ -51,6 +51,24 @@ class TextureMoverTest : public testing::TestWithParam<std::tuple<MotionLaw, uns
     std::uint64_t born_ = 0;
 };
 
+/// The textures hold the living particles, those that hit in this step, and nothing of the step before.
+void expectStateHolds(const TextureMover& mover, const ReliefParticles& particles) {
+    const TextureMover::StateCopy state = mover.copyState();
+    ASSERT_EQ(mover.living().size(), particles.size());
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        const auto texel = static_cast<std::size_t>(mover.living()[i]);
+        ASSERT_EQ(state.places[texel], particles.places()[i]);
+        ASSERT_EQ(glm::vec3(state.velocities[texel]), glm::vec3(particles.velocities()[i]));
+    }
+    const auto of = [&](Fate fate) {
+        return static_cast<std::size_t>(std::ranges::count_if(state.velocities, [&](const glm::vec4& v) {
+            return v != glm::vec4(0) && v.w == static_cast<float>(fate);
+        }));
+    };
+    EXPECT_EQ(of(Fate::hit), particles.hits().size());
+    EXPECT_EQ(of(Fate::lives), particles.size());
+}
+
 // Births in each step, ends of all kinds, growth past one row of texels, and a surface that wears meanwhile.
 TEST_P(TextureMoverTest, EndsWhereTheOracleDoes) {
     TextureMover mover(draw::TestCanvas::device(), panel_, surface_.depths());
@@ -72,6 +90,7 @@ TEST_P(TextureMoverTest, EndsWhereTheOracleDoes) {
             ASSERT_LE(glm::distance(arrays_.velocities()[i], textures_.velocities()[i]),
                       3e-7f * (1 + glm::length(arrays_.velocities()[i])));
         }
+        expectStateHolds(mover, textures_);
         std::vector<Impact> impacts;
         for (std::size_t i = 0; i < arrays_.hits().size(); ++i) {
             const SurfaceHit &a = arrays_.hits()[i], &b = textures_.hits()[i];
