@@ -116,6 +116,7 @@ void Device::begin() {
 Device::~Device() = default;
 
 std::optional<std::int64_t> Device::driverFreeBytes() const {
+    if (isSoftware()) return std::nullopt;  // the host's memory; Mesa 25 reports 24 GiB as 24 MiB
     // With either extension the first value is the free memory in KiB.
     std::array<GLint, 4> kibibytes{};
     if (epoxy_has_gl_extension("GL_NVX_gpu_memory_info"))

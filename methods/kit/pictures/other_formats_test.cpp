@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <iostream>
 #include <iterator>
 #include <ostream>
 #include <string>
@@ -19,6 +20,16 @@
 
 namespace dustbench::pictures {
 namespace {
+
+/// Whether `oiiotool` can write such files here. HEIF needs an encoder that Debian 12 installs with OpenImageIO, and
+/// Debian 13 does not.
+bool canWrite(const TestFolder& folder, const std::string& name) {
+    if (!name.ends_with(".heic")) return true;
+    const std::string file = (folder.path() / ("try_" + name)).string();
+    if (std::system(("oiiotool --pattern black 32x32 3 -o '" + file + "' > /dev/null 2>&1").c_str()) == 0) return true;
+    std::cout << "[ NOT RUN  ] " << name << ": oiiotool has no encoder for it (Debian 13: libheif-plugin-x265)\n";
+    return false;
+}
 
 /// The file that `oiiotool` makes with these arguments.
 std::filesystem::path made(const TestFolder& folder, const std::string& name, const std::string& arguments) {
@@ -92,6 +103,7 @@ TEST(OtherFormats, IntegersAreEncodedAndFloatsLinear) {
                                                        {"c.tif", "half", true},
                                                        {"d.tif", "float", true},
                                                        {"a.webp", "uint8", false, lossy}}) {
+        if (!canWrite(folder, written.name)) continue;
         const Image image = readImage(made(
             folder, written.name, std::string("--pattern constant:color=0.6,0.3,0.15 32x32 3 -d ") + written.depth));
         ASSERT_EQ(image.width, 32) << written.name;

@@ -143,7 +143,9 @@ TEST(PictureWall, ColoursAreWhatTheirFilesSay) {
             folder.write(row.name, bytesOf(file).insert(afterHeader, row.chunks));
         }
         if (row.encoding == 'x') {
-            EXPECT_THAT(inputError([&] { (void)readImage(file); }), HasSubstr(row.reason));
+            EXPECT_THAT(inputError([&] { (void)readImage(file); }),
+                        testing::AnyOf(HasSubstr(row.reason),
+                                       HasSubstr("subsampling factors")));  // newer OpenEXR refuses it itself
             continue;
         }
         const Image image = readImage(file);
