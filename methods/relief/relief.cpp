@@ -251,7 +251,15 @@ MethodInfo describe() {
               "angle to the face above which deposits slide with ageing=deposit; 90: they stay where they fall")
         .real("gravity", 9.8, 0, 1000, "m/s²", "gravity within the relief")
         .integer("maximum_age", 600, 1, 1'000'000, "steps", "age at which a particle in the relief dies")
-        .real("grain_metres", 0.006, 0.0001, 1, "m", "radius of a particle drawn within the relief");
+        .real("grain_metres", 0.006, 0.0001, 1, "m", "radius of a particle drawn within the relief")
+        .choice("weathering", "dust", {"dust", "rain", "sandstorm", "acid"},
+                "what wears the relief away, by mass and hardness: the wheels' dust, drops of rain, sand, or drops of acid, "
+                "for which the surface is soft. The scenes relief_rain, relief_sandstorm and relief_acid have the "
+                "weather for it")
+        .preset("weathering", "rain", {{"mass_kilograms", "0.001"}, {"hardness", "2000"}, {"grain_metres", "0.005"}})
+        .preset("weathering", "sandstorm",
+                {{"mass_kilograms", "0.0002"}, {"hardness", "2000"}, {"grain_metres", "0.004"}})
+        .preset("weathering", "acid", {{"mass_kilograms", "0.002"}, {"hardness", "500"}, {"grain_metres", "0.006"}});
     info.facts = {
         {"hits", "hits", FactOver::lastFrame, "particles that hit the surface of a relief since the start"},
         {"worn_share", "share", FactOver::lastFrame, "volume removed from the reliefs; relative to initial"},

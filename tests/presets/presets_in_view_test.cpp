@@ -103,6 +103,9 @@ TEST(PresetsInView, OfEveryParticleSystem) {
                                               {"smoke", {"smoke", "fixed"}},
                                               {"smoke_fine", {"smoke_fine", "fixed"}},
                                               {"snow", {"snowfall", "fixed"}},
+                                              {"rain", {"relief_rain", "fixed"}},
+                                              {"sandstorm", {"relief_sandstorm", "fixed"}},
+                                              {"acid", {"relief_acid", "fixed"}},
                                               {"torch", {"cascade", "fixed"}},
                                               {"waterfall", {"cascade", "fixed"}}};
     constexpr double leastShare = 0.1;  // snow falls over a wider area than the view, so that none is missing

@@ -1,4 +1,5 @@
-// Makes every shader program by drawing with every setting that selects one. Over 400 lines: the settings of all methods.
+// Makes every shader program by drawing with every setting that selects one. Over 400 lines: the settings of all
+// methods.
 #include "tests/shaders/captured_programs.h"
 
 #include <unistd.h>
@@ -129,18 +130,11 @@ class Stage {
         for (const auto& [name, value] : small)
             if (info.parameters.find(name)) given.set(name, value);
         for (const auto& [name, value] : values) given.set(name, value);
-        const auto method = info.create(given);
-        method->prepare(world_.scene(), {}, device_);
-        gpu::Layer layer(device_, opaque_.depth());
-        const scene::View view = world_.view(width, height);
-        const StageClock untimed;
-        for (int frame = 0; frame < frames; ++frame) {
-            const Frame now{frame, bench::stepSeconds, world_.state(), dust, view, untimed};
-            method->update(now);
-            layer.clear();
-            method->draw(now, layer);
-        }
-        draw::Composite(device_, width, height).draw(opaque_.colour(), layer.colour());
+        drawWith(info, given, world_.scene(), dust);
+        if (!info.drawsPanels || !info.takesLights) return;
+        scene::Scene lit = world_.scene();  // panels under lit dust have shaders of their own
+        lit.lights.onDust = true;
+        drawWith(info, given, lit, dust);
     }
 
     /// Particles in front of the camera, each with its colour or all with one.
@@ -159,6 +153,22 @@ class Stage {
     }
 
  private:
+    void drawWith(const MethodInfo& info, const ParameterValues& values, const scene::Scene& scene,
+                  const particles::ParticleStore& dust) {
+        const auto method = info.create(values);
+        method->prepare(scene, {}, device_);
+        gpu::Layer layer(device_, opaque_.depth());
+        const scene::View view = world_.view(width, height);
+        const StageClock untimed;
+        for (int frame = 0; frame < frames; ++frame) {
+            const Frame now{frame, bench::stepSeconds, world_.state(), dust, view, untimed};
+            method->update(now);
+            layer.clear();
+            method->draw(now, layer);
+        }
+        draw::Composite(device_, width, height).draw(opaque_.colour(), layer.colour());
+    }
+
     /// The scene without its vehicle or its solids, which all our files contain.
     void drawBare(bool vehicle, bool solids, bool lit) {
         scene::Scene bare = world_.scene();
