@@ -4,7 +4,7 @@
 // has. A scan numbers them, and two passes fill them.
 //
 // Units: m, extinction per metre. Frame: world. Colours: linear RGB. Owns: the slots, with room for the largest
-// possible tree of so many particles, up to 2^23 blocks. Threads: the OpenGL thread's. Source: as octree_march.h.
+// possible tree of so many particles, up to 2^23 blocks. Threads: the OpenGL thread's. Source: Carr2006, 5.
 #pragma once
 
 #include <cstdint>
