@@ -253,7 +253,8 @@ MethodInfo describe() {
         .integer("maximum_age", 600, 1, 1'000'000, "steps", "age at which a particle in the relief dies")
         .real("grain_metres", 0.006, 0.0001, 1, "m", "radius of a particle drawn within the relief")
         .choice("weathering", "dust", {"dust", "rain", "sandstorm", "acid"},
-                "what wears the relief away, by mass and hardness: the wheels' dust, drops of rain, sand, or drops of acid, "
+                "what wears the relief away, by mass and hardness: the wheels' dust, drops of rain, sand, or drops of "
+                "acid, "
                 "for which the surface is soft. The scenes relief_rain, relief_sandstorm and relief_acid have the "
                 "weather for it")
         .preset("weathering", "rain", {{"mass_kilograms", "0.001"}, {"hardness", "2000"}, {"grain_metres", "0.005"}})
