@@ -97,6 +97,7 @@ void requirePossible(const std::vector<Change>& changes, const std::vector<parti
     for (const Change& change : changes)
         apply(change, names, [&](std::size_t i) -> particles::PartList& { return *copies[i].parts; });
     std::vector<particles::NamedPartsView> views;
+    views.reserve(copies.size());
     for (const particles::NamedParts& each : copies) views.push_back({each.name, *each.parts});
     particles::requireScript(views);
 }
@@ -165,6 +166,7 @@ void PluginParticles::applyChanges(const Frame& frame) {
 
 void PluginParticles::carryEvents() {
     std::vector<particles::ScriptedSystem> scripted;
+    scripted.reserve(systems_.size());
     for (System& system : systems_) scripted.push_back({system.name, system.particles});
     if (!particles::applyEvents(scripted)) return;
     for (System& system : systems_) makePicture(system);
