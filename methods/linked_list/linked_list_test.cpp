@@ -222,7 +222,7 @@ TEST(LinkedList, SortsLongListsOrSaysThatItCannot) {
     const std::string message = messageOf(longer, 256);
     if (message.empty()) return expectSorted(longer, longer.drawn(Puff::surface, 3.5, 256));
     EXPECT_TRUE(Cloud::device().isSoftware());
-    EXPECT_THAT(message, testing::HasSubstr("too many puffs in"));
+    EXPECT_THAT(message, testing::HasSubstr("too many puffs in a pixel"));
 }
 
 TEST(LinkedList, DrawsTheSameAgainAndFollowsACloudThatComesAndGoes) {

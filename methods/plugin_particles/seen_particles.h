@@ -46,7 +46,7 @@ struct Thinned {
 class SeenParticles {
  public:
     /// The particles to draw, in the same order: these ones, or copies that are valid until the next call. Curves and
-    /// surfaces need every particle and get them all; only what is drawn in its own size is thinned out.
+    /// surfaces get all particles, because they connect them; only particles that have a size are thinned out.
     [[nodiscard]] Puffs of(const Puffs& all, const scene::View& view, const particles::Look& look, float stepSeconds,
                            const Sight& sight);
 

@@ -1,8 +1,8 @@
 // Sunlight on the particles of all systems, if scene::Lights::onDust.
 //
-// What is blended by alpha scatters light and is lit as the shared dust is (kit/light/lit_puffs.h). Puffs and sprites
-// also shadow each other, across systems, and the opaque scene; points, lines and curves have no size of their own in
-// the world and cast no shadow. Additive particles emit their light and stay as they are, and so do meshes, which are
+// Particles blended by alpha are lit like the shared dust (kit/light/lit_puffs.h). Puffs and sprites also cast shadows:
+// on each other, across systems, and on the opaque scene. Points, lines and curves have no size in the world and cast
+// none. Additive particles emit their light and stay as they are, and so do meshes, which are
 // lit as surfaces.
 //
 // Units: metres; linear RGB. Owns: copies of the puffs, if several systems cast shadows. Threads: as lit_puffs.h.

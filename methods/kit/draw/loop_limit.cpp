@@ -23,8 +23,9 @@ void LoopLimit::requireWholeLoops(std::string_view method) const {
     std::array<std::uint32_t, 1> pixels{};
     unfinished_.read(std::span<std::uint32_t>(pixels));
     if (pixels[0] > 0)
-        throw InputError(std::string(method) + ": got too many puffs in " + std::to_string(pixels[0]) +
-                         " pixels for this driver, which ends the loops of a shader after 65,535 iterations; use fewer "
+        throw InputError(std::string(method) +
+                         ": got too many puffs in a pixel for this driver, which ends the loops of a shader after "
+                         "65,535 iterations; use fewer "
                          "particles, or a GPU");
 }
 

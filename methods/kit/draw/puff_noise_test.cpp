@@ -39,11 +39,11 @@ TEST(PuffNoise, IsContinuousAndVariesWithinACell) {
 TEST(PuffNoise, IsThatOfThePuffItself) {
     const NoiseSettings settings{1, 0.5f};
     const glm::vec3 away(0.3f, -0.2f, 0.1f);
-    const NoisePlace centre = noiseOf(7, 2, {}, settings), beside = noiseOf(7, 2, away, settings);
+    const NoisePlace centre = noiseOf(7, 2, {}, settings), shifted = noiseOf(7, 2, away, settings);
     EXPECT_FLOAT_EQ(centre.metres, 1);
-    EXPECT_LT(glm::distance(beside.place - centre.place, away / centre.metres), 1e-4f);
+    EXPECT_LT(glm::distance(shifted.place - centre.place, away / centre.metres), 1e-4f);
     // Twice the radius: the pattern has grown with the puff.
-    EXPECT_LT(glm::distance(noiseOf(7, 4, 2.0f * away, settings).place, beside.place), 1e-4f);
+    EXPECT_LT(glm::distance(noiseOf(7, 4, 2.0f * away, settings).place, shifted.place), 1e-4f);
     EXPECT_GT(glm::distance(noiseOf(8, 2, {}, settings).place, centre.place), 1);
 }
 

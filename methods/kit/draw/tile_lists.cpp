@@ -10,7 +10,7 @@ namespace dustbench::draw {
 namespace {
 
 constexpr std::size_t wordOfPairs = sizeof(std::uint32_t);
-constexpr std::uint32_t tilesOfShape = 4, groupOfShapes = 256, fewestShapes = 4096, maximumGroups = 65535;
+constexpr std::uint32_t tilesOfShape = 4, groupOfShapes = 256, minimumShapes = 4096, maximumGroups = 65535;
 constexpr int maximumTileLevels = 12;
 
 gpu::Program pairProgram(gpu::Device& device, const char* name, const std::vector<gpu::ShaderFile>& pieces,
@@ -69,7 +69,7 @@ void TileLists::reserve(std::uint32_t shapes) {
     if (shapes > maximum)
         throw InputError(name_ + ": got up to " + std::to_string(shapes) +
                          " shapes in tiles, allowed on this device: " + std::to_string(maximum));
-    const std::size_t doubled = pairs_ ? 2 * std::size_t{pairs_->capacity} : fewestShapes;
+    const std::size_t doubled = pairs_ ? 2 * std::size_t{pairs_->capacity} : minimumShapes;
     pairs_.reset();
     pairs_.emplace(device_, std::max(shapes, static_cast<std::uint32_t>(std::min(doubled, maximum))));
 }

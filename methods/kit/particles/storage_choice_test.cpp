@@ -52,11 +52,11 @@ TEST(StorageChoice, GivesTheSameParticles) {
     const auto scene = test::sceneWithCar();
     auto array = test::systemFrom(waves("array")), list = test::systemFrom(waves("list")),
          pool = test::systemFrom(waves("pool"));
-    std::size_t most = 0, fewest = 1000;
+    std::size_t most = 0, least = 1000;
     for (int step = 0; step < 180; ++step) {
         for (ParticleSystem* system : {&array, &list, &pool}) test::advance(*system, scene, 1);
         most = std::max(most, array.store().size());
-        if (step > 30) fewest = std::min(fewest, array.store().size());
+        if (step > 30) least = std::min(least, array.store().size());
         ASSERT_EQ(sorted(list.store()), sorted(array.store())) << step;
         ASSERT_EQ(list.stateHash(), pool.stateHash()) << step;
         // A list in the order of birth.
@@ -67,7 +67,7 @@ TEST(StorageChoice, GivesTheSameParticles) {
         ASSERT_EQ(bytesOfNodes(array), 0u);
     }
     EXPECT_GT(most, 300u);
-    EXPECT_LT(fewest, most / 2) << "the pool was never used";
+    EXPECT_LT(least, most / 2) << "the pool was never used";
 }
 
 TEST(StorageChoice, ChangesWhileRunning) {
