@@ -52,8 +52,9 @@ TEST(SeenParticles, CullingLeavesThePictureAsItIs) {
         EXPECT_EQ(seen.pixels, expected.pixels) << render;
         EXPECT_GT(std::ranges::count_if(expected.pixels, [](const glm::vec4& p) { return p.r > 0; }), 50) << render;
         EXPECT_EQ(culled.method.stateHash(), all.method.stateHash()) << render;
-        if (std::string_view(render) != "part = \"curves\"")
+        if (std::string_view(render) != "part = \"curves\"") {
             EXPECT_LT(culled.method.primitives(), all.method.primitives() / 3) << render;
+        }
         // Another view of the same state, as in a paused window.
         for (Watched* each : {&all, &culled})
             each->view.camera.target = each->view.camera.eye + glm::dvec3(1, 0.1, 0.4);

@@ -106,8 +106,9 @@ TEST(Sunlight, ShadesWhatScattersAndLeavesWhatShines) {
         EXPECT_EQ(without.make(cloud("a", alpha)).shadowing().size(), 0u);
         EXPECT_EQ(with.method->stateHash(), without.method->stateHash());
         EXPECT_NEAR(alphaOf(with.picture), alphaOf(without.picture), 1e-4 * alphaOf(without.picture)) << primitive;
-        if (alphaOf(without.picture) > 0)
+        if (alphaOf(without.picture) > 0) {
             EXPECT_GT(std::abs(brightness(with.picture) / brightness(without.picture) - 1), 0.05) << primitive;
+        }
 
         Lit bright(true), plain(false);
         EXPECT_TRUE(bright.make(cloud("a", additive)).shadowing().empty());
