@@ -14,20 +14,20 @@ vec3 colour = vec3(0);
 /// A fragment below this would occupy a node without being visible; also hides rounding of the error function.
 const float leastAlpha = 1e-5;
 
-void visitPuff(int slot, PixelRay ray) {
-    PuffOnRay puff = puffOfSlot(slot, ray);
-    if (!isWithinReach(puff, slot)) return;
+void visitPuff(TilePuff visited, PixelRay ray) {
+    PuffOnRay puff = onRay(visited, ray);
+    if (!isWithinReach(visited, puff)) return;
 #ifdef SURFACE
-    precise float depth = -centres[slot].z;
+    precise float depth = -visited.centre.z;
     bool seen = depth >= nearMetres && depth * ray.stretch <= ray.sceneMetres;
     float alpha = seen ? opacityOf(puff.whole) : 0.0;
 #else
-    precise float depth = dot(centres[slot].xyz, ray.direction) / (ray.stretch * ray.stretch);  // negative behind the eye
+    precise float depth = dot(visited.centre.xyz, ray.direction) / (ray.stretch * ray.stretch);  // negative behind the eye
     float alpha = opacityOf(puff.whole * shareOnRay(puff));
 #endif
     if (alpha <= leastAlpha) return;
     if (pass == 0) insert(depth, 1.0 - alpha);
-    else colour += visibilityAt(depth) * alpha * colourOf(slot);
+    else colour += visibilityAt(depth) * alpha * visited.looks.rgb;
 }
 
 void main() {

@@ -8,11 +8,11 @@ layout(binding = 1, r32f) writeonly uniform image2D total;  // b₀
 float whole = 0.0;  // b₀
 float q[MOMENTS];
 
-void visitPuff(int slot, PixelRay ray) {
-    PuffOnRay puff = puffOfSlot(slot, ray);
-    if (!isWithinReach(puff, slot)) return;
+void visitPuff(TilePuff visited, PixelRay ray) {
+    PuffOnRay puff = onRay(visited, ray);
+    if (!isWithinReach(visited, puff)) return;
 #ifdef SURFACE
-    Profile profile = surfaceOf(puff, centres[slot], nearMetres, ray.sceneMetres / ray.stretch);
+    Profile profile = surfaceOf(puff, visited.centre, nearMetres, ray.sceneMetres / ray.stretch);
 #else
     Profile profile = profileOf(puff);
 #endif

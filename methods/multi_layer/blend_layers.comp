@@ -28,18 +28,18 @@ void insert(Layer fragment) {
 /// A fragment below this would occupy a layer without being visible; also hides rounding of the error function.
 const float leastAlpha = 1e-5;
 
-void visitPuff(int slot, PixelRay ray) {
-    PuffOnRay puff = puffOfSlot(slot, ray);
-    if (!isWithinReach(puff, slot)) return;
+void visitPuff(TilePuff visited, PixelRay ray) {
+    PuffOnRay puff = onRay(visited, ray);
+    if (!isWithinReach(visited, puff)) return;
 #ifdef SURFACE
-    float depth = -centres[slot].z;
+    float depth = -visited.centre.z;
     bool seen = depth >= nearMetres && depth * ray.stretch <= ray.sceneMetres;
     float alpha = seen ? opacityOf(puff.whole) : 0.0;
 #else
     float depth = puff.foot / ray.stretch;  // negative behind the eye
     float alpha = opacityOf(puff.whole * shareOnRay(puff));
 #endif
-    if (alpha > leastAlpha) insert(Layer(vec4(alpha * colourOf(slot), 1.0 - alpha), depth));
+    if (alpha > leastAlpha) insert(Layer(vec4(alpha * visited.looks.rgb, 1.0 - alpha), depth));
 }
 
 void main() {

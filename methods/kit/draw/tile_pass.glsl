@@ -19,10 +19,9 @@ uniform vec3 eye;
 uniform mat4 worldToEye;
 
 const int puffsAtOnce = 64;
-shared vec4 centres[puffsAtOnce];    // eye space; 1/(√2·s)
-shared float logDepths[puffsAtOnce];  // log2 of the puff's optical depth
-shared int places[puffsAtOnce];      // in the upload
-shared uint selected[2];             // a bit per slot
+shared vec4 centres[puffsAtOnce];  // eye space; 1/(√2·s)
+shared vec4 looksOf[puffsAtOnce];  // colour; log2 of the optical depth
+shared uint selected[2];           // a bit per slot
 
 /// A ray of length 1 per metre along the camera's axis.
 struct PixelRay {
@@ -45,16 +44,14 @@ PixelRay rayOfPixel() {
     return ray;
 }
 
-#ifdef COLOURED
-vec3 colourOf(int slot) {
-    int colour = (places[slot] + 1) * FLOATS - 3;
-    return vec3(values[colour], values[colour + 1], values[colour + 2]);
-}
-#elif !defined(COLOURLESS)
+/// A puff that reaches into the tile.
+struct TilePuff {
+    vec4 centre;  // as in `centres`
+    vec4 looks;   // as in `looksOf`
+};
+
+#if !defined(COLOURED) && !defined(COLOURLESS)
 uniform vec3 colourOfAll;
-vec3 colourOf(int slot) {
-    return colourOfAll;
-}
 #endif
 
 /// The cone around the tile's rays: its axis, and the cosine of the angle to its farthest corner.
@@ -83,26 +80,33 @@ void selectPuff(int slot, int i, vec4 cone) {
     if (i >= count) return;
     int base = i * FLOATS;
     precise vec3 centre = mat3(worldToEye) * (vec3(values[base], values[base + 1], values[base + 2]) - eye);
-    float radius = values[base + 3], depth = opticalDepth(values[base + 4]);
-    if (!(radius > 0.0 && depth > 0.0 && meets(centre, 0.5 * reach * radius, cone))) return;
+    float radius = values[base + 3], opacity = values[base + 4];
+    if (!(radius > 0.0 && opacity > 0.0 && meets(centre, 0.5 * reach * radius, cone))) return;
     centres[slot] = vec4(centre, sqrt(2.0) / radius);
-    logDepths[slot] = log2(depth);
-    places[slot] = i;
+#ifdef COLOURLESS
+    vec3 colour = vec3(0);
+#elif defined(COLOURED)
+    int last = base + FLOATS;
+    vec3 colour = vec3(values[last - 3], values[last - 2], values[last - 1]);
+#else
+    vec3 colour = colourOfAll;
+#endif
+    looksOf[slot] = vec4(colour, log2(opticalDepth(opacity)));
     atomicOr(selected[slot >> 5], 1u << (slot & 31));
 }
 
-PuffOnRay puffOfSlot(int slot, PixelRay ray) {
-    return puffOnRay(centres[slot], logDepths[slot], ray.direction / ray.stretch, ray.sceneMetres);
+PuffOnRay onRay(TilePuff puff, PixelRay ray) {
+    return puffOnRay(puff.centre, puff.looks.w, ray.direction / ray.stretch, ray.sceneMetres);
 }
 
 /// Whether the ray passes the puff's centre at less than `reach`: its depth is at least exp(−reach²/2) of that through
 /// the centre.
-bool isWithinReach(PuffOnRay puff, int slot) {
-    return puff.whole >= exp2(logDepths[slot] - 0.72134752 * reach * reach);
+bool isWithinReach(TilePuff puff, PuffOnRay there) {
+    return there.whole >= exp2(puff.looks.w - 0.72134752 * reach * reach);
 }
 
 /// Defined by the method.
-void visitPuff(int slot, PixelRay ray);
+void visitPuff(TilePuff puff, PixelRay ray);
 
 void visitPuffsOfTile(PixelRay ray) {
     int slot = int(gl_LocalInvocationIndex);
@@ -113,7 +117,10 @@ void visitPuffsOfTile(PixelRay ray) {
         selectPuff(slot, first + slot, cone);
         barrier();
         for (int word = 0; word < 2; ++word)
-            for (uint left = selected[word]; left != 0u; left &= left - 1u) visitPuff(32 * word + findLSB(left), ray);
+            for (uint left = selected[word]; left != 0u; left &= left - 1u) {
+                int visited = 32 * word + findLSB(left);
+                visitPuff(TilePuff(centres[visited], looksOf[visited]), ray);
+            }
         barrier();
     }
 }

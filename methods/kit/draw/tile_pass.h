@@ -2,9 +2,9 @@
 // tile, in the order of their upload. In place of a fragment shader with ordered access to its pixel (fragment
 // interlock), which OpenGL 4.5 lacks.
 //
-// A method's shader defines `void visitPuff(int slot, PixelRay ray)` and calls `visitPuffsOfTile(rayOfPixel())` and, at
-// its end, `reportLoops()` (tile_pass.glsl); image unit 0 is the layer's colour. Every tile tests all puffs, 64 at
-// once.
+// A method's shader defines `void visitPuff(TilePuff visited, PixelRay ray)` and calls `visitPuffsOfTile(rayOfPixel())`
+// and, at its end, `reportLoops()` (tile_pass.glsl); image unit 0 is the layer's colour. Every tile tests all puffs, 64
+// at once.
 //
 // Units: metres. Frames: puffs in the world, their centres in eye space. Threads: the OpenGL thread.
 #pragma once
