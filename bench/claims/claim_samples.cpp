@@ -11,7 +11,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "bench/measure/rank_correlation.h"
+#include "bench/measure/cost_fit.h"
 
 namespace dustbench::bench {
 namespace {

@@ -11,8 +11,7 @@
 
 #include "bench/claims/claim_samples.h"
 #include "bench/measure/cost_fit.h"
-#include "bench/measure/paired_ratio.h"
-#include "bench/measure/ratio_of_means.h"
+#include "bench/measure/statistics.h"
 #include "methods/contract/choices.h"
 
 namespace dustbench::bench {

@@ -18,7 +18,7 @@
 //
 // The 95 % interval of a cell is Student's over the repetitions (at least 6) or seeds (at least 5), of logarithms for
 // ratios and growths if all values are above 0. If a denominator is not above 0, which a method's own time may be, the
-// ratio is that of the means over all turns, with Fieller's interval (ratio_of_means.h). For `depends` the level is
+// ratio is that of the means over all turns, with Fieller's interval (statistics.h). For `depends` the level is
 // 1 − 0.05/n for n cells (Bonferroni). An exponent has the interval of its fit, a finding that of its experiment.
 // Quantities such as bytes have none. Threads: pure. Source: Student1908, Fieller1954.
 #pragma once

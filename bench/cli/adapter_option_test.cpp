@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "bench/cli/called_program.h"
-#include "bench/results/stored_folder.h"
+#include "bench/results/stored_run.h"
 #include "methods/kit/gpu/egl_context.h"
 
 namespace dustbench::cli {

@@ -11,7 +11,7 @@
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/progress_printer.h"
 #include "bench/measure/sha256.h"
-#include "bench/results/stored_folder.h"
+#include "bench/results/stored_run.h"
 #include "bench/results/temporary_folder.h"
 #include "bench/suite/bundle/bundle.h"
 #include "bench/suite/bundle/exact_runs.h"

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "bench/cli/called_program.h"
-#include "bench/results/method_time.h"
+#include "bench/results/compared_runs.h"
 #include "methods/kit/files/csv.h"
 #include "methods/kit/pictures/image.h"
 

@@ -6,7 +6,7 @@
 #include "bench/cli/called_program.h"
 #include "bench/measure/provenance.h"
 #include "bench/results/freshness.h"
-#include "bench/results/stored_folder.h"
+#include "bench/results/stored_run.h"
 
 namespace dustbench::cli {
 namespace {

@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "bench/cli/called_program.h"
-#include "bench/results/method_time.h"
+#include "bench/results/compared_runs.h"
 #include "bench/results/stored_run.h"
 #include "methods/contract/registry.h"
 #include "methods/contract/stage_clock.h"

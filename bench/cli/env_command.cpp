@@ -8,7 +8,7 @@
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
-#include "bench/measure/energy_counter.h"
+#include "bench/measure/energy.h"
 #include "bench/results/run_record.h"
 #include "bench/run/harness_cost.h"
 #include "methods/contract/errors.h"

@@ -8,9 +8,9 @@
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/interruption.h"
-#include "bench/results/measured_on.h"
+#include "bench/results/compared_runs.h"
 #include "bench/results/merge.h"
-#include "bench/results/stored_folder.h"
+#include "bench/results/stored_run.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/printable.h"
 

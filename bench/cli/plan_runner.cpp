@@ -9,7 +9,7 @@
 #include "bench/cli/interruption.h"
 #include "bench/cli/progress_printer.h"
 #include "bench/measure/provenance.h"
-#include "bench/results/stored_folder.h"
+#include "bench/results/stored_run.h"
 #include "methods/kit/files/printable.h"
 #include "methods/kit/gpu/device.h"
 

@@ -10,7 +10,7 @@
 #include "bench/cli/second_look.h"
 #include "bench/cli/text_table.h"
 #include "bench/export/whole_file.h"
-#include "bench/results/stored_folder.h"
+#include "bench/results/stored_run.h"
 #include "bench/results/temporary_folder.h"
 #include "bench/suite/planned_evaluation.h"
 #include "bench/suite/regression/regression_table.h"

@@ -4,8 +4,8 @@
 
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
+#include "bench/results/compared_runs.h"
 #include "bench/results/freshness.h"
-#include "bench/results/key_fields.h"
 
 namespace dustbench::cli {
 namespace {

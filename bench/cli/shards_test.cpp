@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "bench/cli/called_program.h"
-#include "bench/results/method_time.h"
+#include "bench/results/compared_runs.h"
 #include "methods/kit/files/csv.h"
 
 namespace dustbench::cli {

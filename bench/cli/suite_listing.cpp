@@ -9,9 +9,9 @@
 
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/suite_report.h"
-#include "bench/results/disk_need.h"
 #include "bench/results/freshness.h"
-#include "bench/results/stored_folder.h"
+#include "bench/results/output_files.h"
+#include "bench/results/stored_run.h"
 #include "bench/results/temporary_folder.h"
 #include "bench/run/progress.h"
 #include "methods/contract/errors.h"

@@ -3,6 +3,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <fstream>
@@ -10,7 +11,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "bench/measure/stage_recorder.h"
 #include "bench/measure/statistics.h"
 
 namespace dustbench::bench {
@@ -49,6 +49,50 @@ double secondsSinceProcessStart() {
         throw std::runtime_error("/proc/self/stat: does not contain the start time of this process");
     return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9 -
            static_cast<double>(startTicks) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+void StageRecorder::clear() {
+    stageNs_.fill(0);
+    details_.clear();
+    openStages_.clear();
+    openDetails_.clear();
+}
+
+std::int64_t StageRecorder::transition(bool somethingWasQueued) {
+    if (fence_ && somethingWasQueued) fence_();
+    const std::int64_t now = now_();
+    if (!openStages_.empty()) stageNs_[static_cast<std::size_t>(openStages_.back())] += now - stageSince_;
+    stageSince_ = now;
+    return now;
+}
+
+void StageRecorder::creditDetail(std::int64_t now) {
+    if (!openDetails_.empty()) details_[openDetails_.back()].ns += now - detailSince_;
+    detailSince_ = now;
+}
+
+void StageRecorder::begin(Stage stage) {
+    transition(!openStages_.empty());
+    openStages_.push_back(stage);
+}
+
+void StageRecorder::end(Stage) {
+    transition(true);
+    if (!openStages_.empty()) openStages_.pop_back();
+}
+
+void StageRecorder::beginDetail(std::string_view name) {
+    creditDetail(transition(!openStages_.empty()));
+    const Stage stage = openStages_.empty() ? Stage::build : openStages_.back();
+    const auto known = std::ranges::find_if(
+        details_, [&](const Detail& detail) { return detail.name == name && detail.stage == stage; });
+    openDetails_.push_back(static_cast<std::size_t>(known - details_.begin()));
+    if (known == details_.end()) details_.push_back({stage, name});
+}
+
+void StageRecorder::endDetail(std::string_view) {
+    creditDetail(transition(true));
+    if (!openDetails_.empty()) openDetails_.pop_back();
 }
 
 ClockCost measureClockCost() {

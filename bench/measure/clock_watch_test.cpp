@@ -31,6 +31,17 @@ ClockWatch watched(std::vector<GpuClockReading> readings) {
     return watch;
 }
 
+TEST(GpuClock, ReadsTheGpuThatDrawsAndWhatHoldsItDown) {
+    const auto clock = gpuClock("Stand-in Two/PCIe/SSE2", NVML_STAND_IN);
+    ASSERT_TRUE(clock);
+    const GpuClockReading first = clock->read(), second = clock->read();
+    EXPECT_EQ(first.megahertz - second.megahertz, 100u);
+    EXPECT_EQ(first.throttledBy, "power cap, heat");
+    EXPECT_EQ(gpuClock("Stand-in One", NVML_STAND_IN)->read().throttledBy, "") << "an idle GPU is not throttled";
+    EXPECT_FALSE(gpuClock("llvmpipe (LLVM 15.0.6, 256 bits)", NVML_STAND_IN));
+    EXPECT_FALSE(gpuClock("Stand-in One", "libno-such-library.so.1"));
+}
+
 TEST(ClockWatch, IsSilentWhileTheClockRisesOrMovesByAFewSteps) {
     const ClockWatch watch = watched({{900}, {1800}, {1770}, {1785}});
     EXPECT_EQ(watch.warning(), "");

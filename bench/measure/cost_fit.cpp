@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <set>
 
-#include "bench/measure/paired_ratio.h"
+#include "bench/measure/statistics.h"
 
 namespace dustbench::bench {
 namespace {
@@ -82,6 +82,10 @@ bool growthIsResolved(double constant, double curve, double freedom) {
     return constant - curve > 2 * quantile * curve / freedom;
 }
 
+int sign(double value) {
+    return (value > 0) - (value < 0);
+}
+
 }  // namespace
 
 CostFit fitCost(std::span<const CostPoint> points) {
@@ -135,6 +139,20 @@ CostFit fitCost(std::span<const CostPoint> points) {
     fit.factor.plusMinus = plusMinus(1);
     fit.exponent.plusMinus = plusMinus(2);
     return fit;
+}
+
+double rankCorrelation(std::span<const CostPoint> points) {
+    if (points.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+    double concordance = 0, untiedLoads = 0, untiedCosts = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t j = i + 1; j < points.size(); ++j) {
+            const int load = sign(points[j].load - points[i].load), cost = sign(points[j].ms - points[i].ms);
+            concordance += load * cost;
+            untiedLoads += std::abs(load);
+            untiedCosts += std::abs(cost);
+        }
+    const double norm = std::sqrt(untiedLoads * untiedCosts);
+    return norm > 0 ? concordance / norm : 0;
 }
 
 }  // namespace dustbench::bench

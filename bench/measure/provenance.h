@@ -1,6 +1,7 @@
-// Provenance of a result: the program, the machine, the inputs and the time.
+// Provenance of a result: the machine and what disturbs measurements on it, the program, the inputs and the time.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -8,10 +9,28 @@
 #include <vector>
 
 #include "bench/measure/clock.h"
-#include "bench/measure/machine.h"
 #include "methods/kit/gpu/device.h"
 
 namespace dustbench::bench {
+
+/// Empty strings and zeros: unknown.
+struct Machine {
+    std::string cpu;
+    std::string governor;  ///< cpufreq governor of the first core: `performance`, `powersave` …
+    int cores = 0;         ///< available to this process
+    std::int64_t ramBytes = 0;
+    std::string kernel;
+    double loadAverage = 0;  ///< over the last minute
+    bool virtualMachine = false;
+    double stolenShare = 0;      ///< share of the CPU time since boot that the host gave to other virtual machines
+    double quotaCores = 0;       ///< CPU limit of a container, in cores; 0: no limit
+    std::int64_t throttled = 0;  ///< number of thermal throttling events of the first core since boot
+};
+
+[[nodiscard]] Machine readMachine();
+
+/// One sentence for each cause of unreliable timings on this machine, with a remedy in brackets.
+[[nodiscard]] std::vector<std::string> disturbances(const Machine& machine);
 
 /// How this program was built. The commit is empty if it was built outside git.
 struct BuildFacts {

@@ -7,11 +7,9 @@
 #include <array>
 #include <map>
 
-#include "bench/results/key_fields.h"
-#include "bench/results/measured_on.h"
-#include "bench/results/method_time.h"
+#include "bench/results/compared_runs.h"
 #include "bench/results/results_folder.h"
-#include "bench/results/stored_folder.h"
+#include "bench/results/stored_run.h"
 #include "bench/results/summary.h"
 #include "bench/suite/suite_axes.h"
 #include "methods/contract/errors.h"

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "bench/results/stored_folder.h"
+#include "bench/results/stored_run.h"
 #include "bench/results/summary.h"
 #include "methods/contract/errors.h"
 

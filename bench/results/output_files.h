@@ -1,6 +1,7 @@
-// The output files of a run with their SHA-256. A result with an altered or missing output file does not count as done.
+// The output files of a run: the disk space that they need, estimated before it starts so that long suites do not fail
+// half-way, and their SHA-256 afterwards. A result with an altered or missing output file does not count as done.
 //
-// Threads: any.
+// Units: bytes. Threads: any.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,8 @@
 #include <span>
 #include <string>
 #include <vector>
+
+#include "bench/results/run_spec.h"
 
 namespace dustbench::bench {
 
@@ -27,5 +30,15 @@ struct OutputFile {
 
 /// Whether the relative name stays within its folder.
 [[nodiscard]] bool isWithin(const std::filesystem::path& name);
+
+/// Upper bound, as far as known in advance, from tables, uncompressed pictures and grids at full resolution. The
+/// numbers of particles and octree nodes in a volume are not known; such a volume counts as a grid.
+[[nodiscard]] std::uint64_t maximumBytesOf(const RunSpec& spec);
+
+/// Space available to an ordinary user on the file system of `folder`.
+[[nodiscard]] std::uint64_t freeBytes(const std::filesystem::path& folder);
+
+/// `1.4 GB`
+[[nodiscard]] std::string bytesText(std::uint64_t bytes);
 
 }  // namespace dustbench::bench

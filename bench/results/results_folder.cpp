@@ -12,8 +12,8 @@
 #include <set>
 #include <thread>
 
-#include "bench/results/method_time.h"
-#include "bench/results/stored_folder.h"
+#include "bench/results/compared_runs.h"
+#include "bench/results/stored_run.h"
 #include "bench/results/summary.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"

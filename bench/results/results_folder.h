@@ -39,7 +39,7 @@ class ResultsFolder {
     void place(const std::string& runId);
     void discard(const std::string& runId);
 
-    /// Writes summaryCsv of all runs with their method times (method_time.h).
+    /// Writes summaryCsv of all runs with their method times (compared_runs.h).
     void writeSummary();
 
  private:

@@ -42,7 +42,7 @@ struct RunRecord {
     std::string drive;                  ///< the resolved one
     std::string stateHash;              ///< 16 hexadecimal digits, of vehicle and shared dust after the last frame
     std::string methodHash;             ///< of the method's own simulation; empty if it has none
-    std::vector<std::string> validity;  ///< why claims must not use it (validity.h); empty if valid
+    std::vector<std::string> validity;  ///< why claims must not use it (method_facts.h); empty if valid
     Columns summary;                    ///< columns of summary.csv, without parameters
     std::vector<std::pair<std::string, MemoryUse>> memory;  ///< owner (`world`, `method`, `device`) and structure
     std::optional<std::vector<OutputFile>> outputs;         ///< files in the same folder; empty: unknown

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <limits>
 
-#include "bench/results/frame_files.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/stored_run.h"
 #include "bench/results/summary.h"

@@ -16,7 +16,6 @@
 #include "bench/export/exporter.h"
 #include "bench/measure/image/metric.h"
 #include "bench/reference/judge/judgement.h"
-#include "bench/results/frame_files.h"
 #include "bench/results/method_facts.h"
 #include "bench/results/summary.h"
 #include "methods/kit/files/csv.h"

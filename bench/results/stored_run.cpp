@@ -8,6 +8,7 @@
 #include <new>
 #include <set>
 
+#include "bench/results/compared_runs.h"
 #include "bench/results/summary.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
@@ -15,6 +16,7 @@
 #include "methods/kit/files/whole_text.h"
 
 namespace dustbench::bench {
+namespace fs = std::filesystem;
 namespace {
 
 using simdjson::dom::array;
@@ -157,6 +159,44 @@ void requireSoundCells(const StoredRun& run) {
     if (number != std::floor(number) || number < 1 || number > files::limits::repetitions)
         throw InputError(fmt::format("summary.repetition: got '{}', allowed: 1..{} (limit of repetitions)",
                                      repetition->second.substr(0, 40), files::limits::repetitions));
+}
+
+StoredRun readRunFolder(const fs::path& folder) {
+    StoredRun run = readRunFile(folder / "run.json");
+    if (run.runId != folder.filename())
+        throw InputError(fmt::format("'{}': contains the run '{}', expected the run that the folder is named after",
+                                     (folder / "run.json").string(), run.runId));
+    if (!run.outputs) return run;
+    if (const std::string why = whyAltered(*run.outputs, folder); !why.empty())
+        throw InputError(fmt::format("'{}': {}", folder.string(), why));
+    return run;
+}
+
+std::string saysNothingOfOutputs(const StoredRuns& runs) {
+    const auto count = std::ranges::count_if(
+        runs, [](const auto& entry) { return entry.second.status == RunStatus::done && !entry.second.outputs; });
+    if (count == 0) return "";
+    return fmt::format(
+        "{} of {} runs are from an older build that did not record the SHA-256 of their files, so changes to "
+        "these files cannot be detected",
+        count, runs.size());
+}
+
+StoredRuns readStoredRuns(const fs::path& folder) {
+    std::error_code error;
+    if (!fs::is_directory(folder / "runs", error))
+        throw InputError(
+            fmt::format("'{}': is not a results folder, expected it to contain a folder 'runs'", folder.string()));
+    StoredRuns runs;
+    fs::directory_iterator entry(folder / "runs", error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+        const std::string name = entry->path().filename();
+        if (name.starts_with('.') || entry->is_regular_file(error)) continue;  // a stray file is not a run
+        runs.emplace(name, readRunFolder(entry->path()));
+    }
+    if (error) throw InputError(fmt::format("'{}': cannot be read: {}", folder.string(), error.message()));
+    addMethodTimes(runs);
+    return runs;
 }
 
 }  // namespace dustbench::bench

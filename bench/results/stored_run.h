@@ -1,4 +1,5 @@
-// The contents of a run.json, as needed to resume, summarise, compare and display runs.
+// The contents of a run.json, as needed to resume, summarise, compare and display runs, and the runs of a results
+// folder, which is read without changing it: takes no lock, creates and removes nothing.
 //
 // Threads: any.
 #pragma once
@@ -46,5 +47,16 @@ using StoredRuns = std::map<std::string, StoredRun>;
 /// Checks what readers of a run's cells rely on: numeric columns contain numbers, and the repetition is within its
 /// limits. Throws InputError.
 void requireSoundCells(const StoredRun& run);
+
+/// Reads the run of one folder. Throws InputError with its file if it cannot be read, is not the run that the folder is
+/// named after, or if one of its outputs was altered.
+[[nodiscard]] StoredRun readRunFolder(const std::filesystem::path& folder);
+
+/// The number of runs that are done but did not record their outputs, as a sentence; empty if there are none.
+[[nodiscard]] std::string saysNothingOfOutputs(const StoredRuns& runs);
+
+/// Reads completed runs only; ignores runs that another program is still writing, and stray files. Throws InputError
+/// with the folder or file if it is not a results folder, or if a run in it cannot be read.
+[[nodiscard]] StoredRuns readStoredRuns(const std::filesystem::path& folder);
 
 }  // namespace dustbench::bench

@@ -1,16 +1,24 @@
 #include "bench/results/summary.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <initializer_list>
+#include <iterator>
 #include <limits>
 #include <tuple>
 
 #include "bench/measure/image/metric.h"
 #include "bench/measure/statistics.h"
 #include "bench/results/method_facts.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
+
+using files::csvCell;
+using files::csvNumber;
+
 namespace {
 
 std::vector<double> columnOf(std::span<const FrameRecord> frames, const std::function<double(const FrameRecord&)>& of) {
@@ -168,6 +176,31 @@ Columns measuredColumns(std::span<const FrameRecord> frames, const WholeRun& run
     // A sum that lacks a part would look like a saving.
     if (cpu && (gpu || run.softwareRenderer)) columns.emplace_back("energy_j", *cpu + gpu.value_or(0));
     return columns;
+}
+
+std::string framesCsv(std::span<const FrameRecord> frames) {
+    std::string text = "frame,time_s,frame_ms";
+    const auto out = std::back_inserter(text);
+    for (const std::string_view stage : stageNames) fmt::format_to(out, ",{}_ms", stage);
+    text += ",gpu_ms,particles,primitives,cpu_bytes,gpu_bytes,rss_bytes\n";
+    for (const FrameRecord& frame : frames) {
+        fmt::format_to(out, "{},{},{}", frame.frame, csvNumber(frame.timeSeconds), csvNumber(frame.frameMs));
+        for (const double ms : frame.stageMs) fmt::format_to(out, ",{}", csvNumber(ms));
+        fmt::format_to(out, ",{}", frame.gpuMs ? csvNumber(*frame.gpuMs) : "");
+        fmt::format_to(out, ",{},{},{},{},{}\n", frame.particles, frame.primitives, frame.cpuBytes, frame.gpuBytes,
+                       frame.rssBytes);
+    }
+    return text;
+}
+
+std::string stagesCsv(std::span<const FrameRecord> frames) {
+    std::string text = "frame,stage,detail,ms\n";
+    for (const FrameRecord& frame : frames)
+        for (const FrameRecord::Detail& detail : frame.details)
+            fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", frame.frame,
+                           stageNames[static_cast<std::size_t>(detail.stage)], csvCell(detail.name),
+                           csvNumber(detail.ms));
+    return text;
 }
 
 }  // namespace dustbench::bench

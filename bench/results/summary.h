@@ -1,4 +1,5 @@
-// Computes a run's row of summary.csv from its recorded frames. `reports/SCHEMA.md` defines every column.
+// The tables of a run's recorded frames: its row of summary.csv, frames.csv and stages.csv. `reports/SCHEMA.md` defines
+// every column.
 #pragma once
 
 #include <optional>
@@ -38,5 +39,11 @@ struct WholeRun {
 
 /// The columns computed from the frames and the run as a whole.
 [[nodiscard]] Columns measuredColumns(std::span<const FrameRecord> frames, const WholeRun& run);
+
+/// The text of frames.csv: one row per recorded frame.
+[[nodiscard]] std::string framesCsv(std::span<const FrameRecord> frames);
+
+/// The text of stages.csv: `frame,stage,detail,ms`, one row per frame and finer stage.
+[[nodiscard]] std::string stagesCsv(std::span<const FrameRecord> frames);
 
 }  // namespace dustbench::bench

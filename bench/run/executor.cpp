@@ -10,8 +10,8 @@
 #include <optional>
 #include <thread>
 
-#include "bench/results/disk_need.h"
 #include "bench/results/freshness.h"
+#include "bench/results/output_files.h"
 #include "bench/results/summary.h"
 #include "bench/run/child_process.h"
 #include "bench/run/remaining_time.h"

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "bench/measure/clock.h"
 #include "bench/measure/frame_record.h"
-#include "bench/measure/stage_recorder.h"
 #include "bench/results/run_spec.h"
 #include "bench/run/method_host.h"
 #include "bench/scene/world.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "bench/measure/gpu_clock.h"
+#include "bench/measure/clock_watch.h"
 #include "bench/measure/provenance.h"
 #include "bench/selfcheck/check.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "bench/results/method_time.h"
+#include "bench/results/compared_runs.h"
 #include "bench/suite/suite_axes.h"
 
 namespace dustbench::bench {

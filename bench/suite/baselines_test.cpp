@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "bench/results/method_time.h"
+#include "bench/results/compared_runs.h"
 #include "bench/suite/shard.h"
 #include "bench/suite/side_by_side.h"
 #include "bench/suite/suite_axes.h"

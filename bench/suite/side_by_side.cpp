@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "bench/results/method_time.h"
+#include "bench/results/compared_runs.h"
 #include "bench/scene/world.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "bench/measure/paired_ratio.h"
+#include "bench/measure/statistics.h"
 #include "bench/results/run_record.h"
 #include "bench/scene/world.h"
 #include "methods/contract/errors.h"

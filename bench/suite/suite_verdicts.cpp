@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "bench/results/measured_on.h"
+#include "bench/results/compared_runs.h"
 #include "bench/suite/suite_axes.h"
 #include "methods/contract/errors.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/measure/paired_ratio.h"
+#include "bench/measure/statistics.h"
 #include "bench/suite/cell_results.h"
 #include "bench/suite/suite.h"
 #include "bench/suite/suite_table.h"

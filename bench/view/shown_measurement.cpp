@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "bench/measure/statistics.h"
-#include "bench/results/method_time.h"
+#include "bench/results/compared_runs.h"
 #include "bench/suite/cell_results.h"
 #include "bench/suite/suite_verdicts.h"
 #include "methods/contract/errors.h"

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "bench/results/method_time.h"
+#include "bench/results/compared_runs.h"
 #include "bench/results/summary.h"
 #include "bench/view/viewer.h"
 #include "methods/contract/registry.h"

@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-#include "bench/measure/stage_recorder.h"
+#include "bench/measure/clock.h"
 #include "bench/run/method_host.h"
 #include "bench/scene/control_recording.h"
 #include "bench/scene/keyboard_controls.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bench/results/measured_on.h"
+#include "bench/results/compared_runs.h"
 #include "methods/contract/errors.h"
 
 namespace dustbench::bench {

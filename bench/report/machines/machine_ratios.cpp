@@ -9,7 +9,7 @@
 #include <set>
 
 #include "bench/measure/statistics.h"
-#include "bench/results/method_time.h"
+#include "bench/results/compared_runs.h"
 #include "bench/suite/catalogue.h"
 #include "bench/suite/planned_evaluation.h"
 #include "bench/suite/suite_axes.h"

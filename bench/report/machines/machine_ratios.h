@@ -1,7 +1,7 @@
 // Ratios of the methods' times on each machine, and the times themselves, for each experiment.
 //
 // A ratio compares two variants, which are methods with their own settings, within one machine. It pairs runs of the
-// same world, seed and repetition (pairKey of method_time.h). Interval and verdict are those of paired_ratio.h over the
+// same world, seed and repetition (pairKey of compared_runs.h). Interval and verdict are those of statistics.h over the
 // repetitions or, if all machines share several seeds, over the seeds, with the mean over each seed's repetitions.
 // Seeds that are missing on a machine are left out. For all worlds together, each repetition or seed gives one ratio:
 // the geometric mean over the worlds that were measured on every machine that has both variants. So all machines answer
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/measure/paired_ratio.h"
+#include "bench/measure/statistics.h"
 #include "bench/report/machines/machine_cells.h"
 #include "bench/report/median_interval.h"
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "bench/report/machines/hardware_table.h"
-#include "bench/results/measured_on.h"
+#include "bench/results/compared_runs.h"
 
 namespace dustbench::bench {
 namespace {

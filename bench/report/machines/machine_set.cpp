@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "bench/report/report_reader.h"
-#include "bench/results/measured_on.h"
+#include "bench/results/compared_runs.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/printable.h"
 

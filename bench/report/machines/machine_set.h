@@ -1,6 +1,6 @@
 // Reads results folders of several machines for a page that compares them.
 //
-// The runs of a folder are split by machine (machineFields of measured_on.h). Usually there is only one.
+// The runs of a folder are split by machine (machineFields of compared_runs.h). Usually there is only one.
 // Threads: plain data.
 #pragma once
 

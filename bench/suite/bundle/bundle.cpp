@@ -11,7 +11,7 @@
 #include "bench/export/whole_file.h"
 #include "bench/measure/provenance.h"
 #include "bench/measure/sha256.h"
-#include "bench/results/stored_folder.h"
+#include "bench/results/stored_run.h"
 #include "bench/suite/bundle/tar_file.h"
 #include "bench/suite/machine/machine_plan.h"
 #include "bench/suite/suite.h"

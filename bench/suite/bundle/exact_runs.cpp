@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "bench/results/key_fields.h"
+#include "bench/results/compared_runs.h"
 #include "methods/contract/errors.h"
 
 namespace dustbench::bench {

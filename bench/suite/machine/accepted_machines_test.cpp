@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "bench/measure/clock_watch.h"
-#include "bench/results/summary_runs.h"
+#include "bench/results/run_tables.h"
 #include "bench/results/temporary_folder.h"
 #include "methods/kit/files/csv.h"
 #include "methods/kit/files/data_folder.h"

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "bench/results/disk_need.h"
+#include "bench/results/output_files.h"
 #include "methods/kit/maths/philox.h"
 
 namespace dustbench::bench {

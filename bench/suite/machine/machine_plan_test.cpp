@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "bench/results/method_time.h"
+#include "bench/results/compared_runs.h"
 #include "methods/contract/errors.h"
 
 namespace dustbench::bench {

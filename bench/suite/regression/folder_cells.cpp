@@ -8,7 +8,7 @@
 #include <optional>
 #include <set>
 
-#include "bench/results/measured_on.h"
+#include "bench/results/compared_runs.h"
 
 namespace dustbench::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/results/key_fields.h"
+#include "bench/results/compared_runs.h"
 #include "bench/suite/cell_results.h"
 
 namespace dustbench::bench {

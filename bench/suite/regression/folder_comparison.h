@@ -1,7 +1,7 @@
 // Compares two results folders: the ratio of the times of each configuration in B and A, and whether the folders are
 // comparable.
 //
-// The folders were not measured interleaved, so repetitions are not paired (unpaired_ratio.h). For all configurations
+// The folders were not measured interleaved, so repetitions are not paired (statistics.h). For all configurations
 // together, each repetition of a folder gives one time, the geometric mean over the configurations, so that variation
 // common to a round is counted once. A repetition counts only if all configurations have a time.
 #pragma once
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/measure/unpaired_ratio.h"
+#include "bench/measure/statistics.h"
 #include "bench/suite/regression/folder_cells.h"
 
 namespace dustbench::bench {

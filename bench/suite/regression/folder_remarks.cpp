@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "bench/results/measured_on.h"
+#include "bench/results/compared_runs.h"
 
 namespace dustbench::bench {
 namespace {

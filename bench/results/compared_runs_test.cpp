@@ -1,4 +1,4 @@
-#include "bench/results/method_time.h"
+#include "bench/results/compared_runs.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "bench/measure/energy_meter.h"
+#include "bench/measure/energy.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,8 +7,6 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
-
-#include "bench/measure/gpu_clock.h"
 
 namespace dustbench::bench {
 namespace {
@@ -97,17 +95,6 @@ TEST(GpuEnergy, IsMissingForOtherRenderersTwoOfANameAndWithoutTheLibrary) {
     EXPECT_FALSE(gpuEnergy("llvmpipe (LLVM 15.0.6, 256 bits)", NVML_STAND_IN));
     EXPECT_FALSE(gpuEnergy("Stand-in One and Stand-in Two", NVML_STAND_IN));
     EXPECT_FALSE(gpuEnergy("Stand-in One", "libno-such-library.so.1"));
-}
-
-TEST(GpuClock, ReadsTheGpuThatDrawsAndWhatHoldsItDown) {
-    const auto clock = gpuClock("Stand-in Two/PCIe/SSE2", NVML_STAND_IN);
-    ASSERT_TRUE(clock);
-    const GpuClockReading first = clock->read(), second = clock->read();
-    EXPECT_EQ(first.megahertz - second.megahertz, 100u);
-    EXPECT_EQ(first.throttledBy, "power cap, heat");
-    EXPECT_EQ(gpuClock("Stand-in One", NVML_STAND_IN)->read().throttledBy, "") << "an idle GPU is not throttled";
-    EXPECT_FALSE(gpuClock("llvmpipe (LLVM 15.0.6, 256 bits)", NVML_STAND_IN));
-    EXPECT_FALSE(gpuClock("Stand-in One", "libno-such-library.so.1"));
 }
 
 }  // namespace

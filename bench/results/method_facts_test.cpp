@@ -1,4 +1,4 @@
-#include "bench/results/validity.h"
+#include "bench/results/method_facts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

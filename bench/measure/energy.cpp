@@ -1,3 +1,5 @@
+#include "bench/measure/energy.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
@@ -6,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "bench/measure/energy_counter.h"
+#include "bench/measure/nvml.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
@@ -22,9 +24,9 @@ std::optional<Value> readFirst(const fs::path& file) {
 
 /// `intel-rapl:0` is a package, `intel-rapl:0:1` a part of one, `intel-rapl-mmio:0` the same package again.
 bool isZone(const std::string& name) {
-    constexpr std::string_view prefix = "intel-rapl:";
-    return name.starts_with(prefix) && name.size() > prefix.size() &&
-           std::all_of(name.begin() + prefix.size(), name.end(), [](unsigned char c) { return std::isdigit(c); });
+    constexpr std::string_view start = "intel-rapl:";
+    return name.starts_with(start) && name.size() > start.size() &&
+           std::all_of(name.begin() + start.size(), name.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
 /// Counter of one package; it wraps to 0 at the end of its range.
@@ -53,6 +55,22 @@ class PackageEnergy final : public EnergyCounter {
     std::int64_t total_ = 0;  ///< microjoules
 };
 
+class GpuEnergy final : public EnergyCounter {
+ public:
+    GpuEnergy(std::unique_ptr<Nvml> nvml, Nvml::Device device) : nvml_(std::move(nvml)), device_(device) {}
+
+    double joules() override {
+        unsigned long long millijoules = 0;
+        if (!nvml_->millijoules(device_, millijoules))
+            throw std::runtime_error("NVML: the GPU's energy can no longer be read");
+        return static_cast<double>(millijoules) * 1e-3;
+    }
+
+ private:
+    std::unique_ptr<Nvml> nvml_;
+    Nvml::Device device_;
+};
+
 }  // namespace
 
 std::unique_ptr<EnergyCounter> packageEnergy(const fs::path& powercap) {
@@ -67,6 +85,39 @@ std::unique_ptr<EnergyCounter> packageEnergy(const fs::path& powercap) {
         packages.push_back({entry.path() / "energy_uj", *range, *now});
     }
     return packages.empty() ? nullptr : std::make_unique<PackageEnergy>(std::move(packages));
+}
+
+std::unique_ptr<EnergyCounter> gpuEnergy(const std::string& renderer, const std::string& library) {
+    auto nvml = std::make_unique<Nvml>(library);
+    const Nvml::Device device = nvml->deviceOf(renderer);
+    unsigned long long now = 0;
+    if (!device || !nvml->millijoules(device, now)) return nullptr;
+    return std::make_unique<GpuEnergy>(std::move(nvml), device);
+}
+
+EnergyMeter::EnergyMeter(std::unique_ptr<EnergyCounter> cpu, std::unique_ptr<EnergyCounter> gpu)
+    : cpu_(std::move(cpu)), gpu_(std::move(gpu)) {}
+
+void EnergyMeter::resume() {
+    cpu_.resume();
+    gpu_.resume();
+}
+
+void EnergyMeter::pause() {
+    cpu_.pause();
+    gpu_.pause();
+}
+
+void EnergyMeter::Stretches::resume() {
+    if (counter_) since_ = counter_->joules();
+}
+
+void EnergyMeter::Stretches::pause() {
+    if (counter_) sum_ += counter_->joules() - since_;
+}
+
+std::optional<double> EnergyMeter::Stretches::joules() const {
+    return counter_ ? std::optional(sum_) : std::nullopt;
 }
 
 }  // namespace dustbench::bench
