@@ -12,7 +12,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/toml_text.h"
-#include "methods/voxel_shape/shape_file.h"
+#include "methods/voxel_shape/shape.h"
 
 namespace dustbench::voxel_shape {
 namespace {

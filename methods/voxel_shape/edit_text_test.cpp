@@ -12,8 +12,8 @@
 #include "methods/kit/testing/test_folder.h"
 #include "methods/kit/testing/test_input_error.h"
 #include "methods/kit/testing/test_moment.h"
+#include "methods/voxel_shape/shape.h"
 #include "methods/voxel_shape/shape_builder.h"
-#include "methods/voxel_shape/shape_file.h"
 #include "methods/voxel_shape/voxels/voxel_file.h"
 
 namespace dustbench::voxel_shape {

@@ -1,22 +1,45 @@
 // One shape in a scene: its track, voxels, particles, light and collisions.
 //
-// Units: m, s. Frame: world. Owns: all of it, on a ledger. Threads: the OpenGL thread's; uses the current oneTBB arena.
+// Units: m, s, radians. Frame: world. Owns: all of it, on a ledger. Threads: the OpenGL thread's; uses the current
+// oneTBB arena.
 #pragma once
 
 #include <memory>
 #include <optional>
 
 #include "methods/contract/method.h"
+#include "methods/contract/scene.h"
 #include "methods/kit/volumes/vector_series.h"
 #include "methods/voxel_shape/collision/shape_collision.h"
-#include "methods/voxel_shape/particles/dust_flow.h"
+#include "methods/voxel_shape/particles/draw_along.h"
+#include "methods/voxel_shape/particles/pose.h"
 #include "methods/voxel_shape/particles/shape_system.h"
 #include "methods/voxel_shape/shape.h"
-#include "methods/voxel_shape/shape_light.h"
-#include "methods/voxel_shape/shape_stress.h"
-#include "methods/voxel_shape/shape_track.h"
+#include "methods/voxel_shape/shape_colours.h"
 
 namespace dustbench::voxel_shape {
+
+/// Position, heading and scale at a time: linear from key to key, with a jump from the last key back to the first.
+struct TrackMoment {
+    TrackKey key;
+    TrackKey perSecond;  ///< rates of position, heading and scale; the jump to the first key does not count
+};
+[[nodiscard]] TrackMoment momentAt(const Track& track, double timeSeconds);
+
+/// A shape's pose over time along its track, in the vehicle's frame or the world's, with the velocities at the same
+/// time.
+class ShapeTrack {
+ public:
+    explicit ShapeTrack(const Track& track) : track_(track) {}
+
+    /// Returns the pose `stepSeconds` after the last one. The vehicle's rate of turn is the turn since the last call; 0
+    /// at the first call.
+    Pose advance(const scene::SceneState& state, double stepSeconds);
+
+ private:
+    Track track_;
+    std::optional<glm::dmat3> lastFrame_;
+};
 
 class LivingShape {
  public:

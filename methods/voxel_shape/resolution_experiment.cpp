@@ -7,8 +7,8 @@
 
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/findings/findings.h"
+#include "methods/voxel_shape/shape.h"
 #include "methods/voxel_shape/shape_builder.h"
-#include "methods/voxel_shape/shape_file.h"
 #include "methods/voxel_shape/voxel_shape.h"
 
 namespace dustbench::voxel_shape::resolution {

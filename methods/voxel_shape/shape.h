@@ -1,4 +1,4 @@
-// A shape as described by its file. data/shapes/car.toml documents the keys.
+// A shape as described by its file, and the reader of that file. data/shapes/car.toml documents the keys.
 //
 // Units: m, s, radians, linear RGB. Frame: the shape's own; the track is in the vehicle's frame or the world's.
 #pragma once
@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "methods/contract/choices.h"
+#include "methods/kit/files/toml_reader.h"
 #include "methods/voxel_shape/collision/shape_collision.h"
-#include "methods/voxel_shape/particles/motion.h"
+#include "methods/voxel_shape/particles/particle_kernel.h"
 #include "methods/voxel_shape/voxels/voxel_change.h"
 
 namespace dustbench::voxel_shape {
@@ -125,5 +126,10 @@ struct Shape {
     float dustDrawsPerSecond = 0;   ///< rate at which particles take on the motion of the dust around them; 0: none
     double heldWithin = 0;  ///< allowed relative deviation of the particles held from the shape's number; 0: unchecked
 };
+
+/// Reads a shape from TOML. Throws InputError with file, line, the value read and the expected values.
+[[nodiscard]] Shape readShape(const std::filesystem::path& file);
+/// Reads an edit of the shape file `from`. Looks for its mesh next to that file, then in the data folder.
+[[nodiscard]] VoxelEdit readEdit(files::TomlReader& table, const std::filesystem::path& from);
 
 }  // namespace dustbench::voxel_shape

@@ -10,7 +10,7 @@
 #include "methods/kit/testing/test_input_error.h"
 #include "methods/kit/testing/test_moment.h"
 #include "methods/voxel_shape/resolution_experiment.h"
-#include "methods/voxel_shape/shape_file.h"
+#include "methods/voxel_shape/shape.h"
 #include "methods/voxel_shape/voxel_shape.h"
 #include "methods/voxel_shape/voxels/test_meshes.h"
 

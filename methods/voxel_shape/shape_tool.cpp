@@ -14,8 +14,8 @@
 #include "methods/kit/files/whole_text.h"
 #include "methods/voxel_shape/edit_text.h"
 #include "methods/voxel_shape/living_shape.h"
+#include "methods/voxel_shape/shape.h"
 #include "methods/voxel_shape/shape_builder.h"
-#include "methods/voxel_shape/shape_file.h"
 #include "methods/voxel_shape/voxels/voxel_file.h"
 
 namespace dustbench::voxel_shape::shape {

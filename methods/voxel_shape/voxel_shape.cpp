@@ -8,9 +8,9 @@
 #include "methods/kit/draw/read_back.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/maths/hash.h"
-#include "methods/voxel_shape/particles/crossing.h"
+#include "methods/voxel_shape/particles/draw_along.h"
+#include "methods/voxel_shape/shape.h"
 #include "methods/voxel_shape/shape_builder.h"
-#include "methods/voxel_shape/shape_file.h"
 #include "methods/voxel_shape/silhouette.h"
 
 namespace dustbench::voxel_shape {

@@ -1,8 +1,9 @@
 // Objects made of particles that keep their shape: a mesh is voxelised, and the voxels determine how the particles in
 // them look and move.
 //
-// Source: JuckelBeckhaus2007. Departs: formulas where the paper gives none (voxels/voxel.h); puff sizes and opacities
-// follow the optical model of all methods; births by the number of particles a voxel lacks (particles/emission.h).
+// Source: JuckelBeckhaus2007. Departs: formulas where the paper gives none (voxels/voxel_grid.h); puff sizes and
+// opacities follow the optical model of all methods; births by the number of particles a voxel lacks
+// (particles/shape_system.h).
 #pragma once
 
 #include <memory>
@@ -10,9 +11,7 @@
 #include <vector>
 
 #include "methods/contract/method.h"
-#include "methods/voxel_shape/draw_order.h"
 #include "methods/voxel_shape/living_shape.h"
-#include "methods/voxel_shape/merged_particles.h"
 #include "methods/voxel_shape/shape_picture.h"
 
 namespace dustbench::voxel_shape {

@@ -1,5 +1,7 @@
 // Benchmarks upload and drawing of 40,000 unsorted point sprites of 4 pixels against a bare draw of the same sprites.
 // The bare draw binds, draws and waits; its buffer is written once. Both pictures are compared before timing.
+#include "methods/voxel_shape/voxel_shape.h"
+
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -8,9 +10,8 @@
 
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/testing/test_moment.h"
+#include "methods/voxel_shape/shape.h"
 #include "methods/voxel_shape/shape_builder.h"
-#include "methods/voxel_shape/shape_file.h"
-#include "methods/voxel_shape/voxel_shape.h"
 
 namespace dustbench::voxel_shape {
 namespace {

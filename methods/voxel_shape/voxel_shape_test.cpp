@@ -8,8 +8,8 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/testing/test_folder.h"
 #include "methods/kit/testing/test_moment.h"
+#include "methods/voxel_shape/shape.h"
 #include "methods/voxel_shape/shape_builder.h"
-#include "methods/voxel_shape/shape_file.h"
 #include "methods/voxel_shape/silhouette.h"
 #include "methods/voxel_shape/voxels/test_meshes.h"
 

@@ -8,7 +8,7 @@
 
 #include "methods/kit/meshes/open_edges.h"
 #include "methods/kit/meshes/triangle_tree.h"
-#include "methods/voxel_shape/collision/mesh_parts.h"
+#include "methods/voxel_shape/collision/solid_places.h"
 #include "methods/voxel_shape/particles/shape_system.h"
 #include "methods/voxel_shape/voxels/surface_voxels.h"
 #include "methods/voxel_shape/voxels/test_meshes.h"

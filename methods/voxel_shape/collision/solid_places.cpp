@@ -1,14 +1,53 @@
 #include "methods/voxel_shape/collision/solid_places.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <map>
+#include <numeric>
 
 #include "methods/kit/parallel/for_each_block.h"
-#include "methods/voxel_shape/collision/mesh_parts.h"
+#include "methods/voxel_shape/voxels/solid_fill.h"
+#include "methods/voxel_shape/voxels/surface_voxels.h"
 
 namespace dustbench::voxel_shape {
 namespace {
+
+/// Disjoint sets of numbers; a set is represented by its minimum.
+class Groups {
+ public:
+    explicit Groups(std::size_t count) : leader_(count) { std::iota(leader_.begin(), leader_.end(), std::size_t{0}); }
+    [[nodiscard]] std::size_t of(std::size_t i) {
+        while (leader_[i] != i) i = leader_[i] = leader_[leader_[i]];
+        return i;
+    }
+    /// Joins two sets; returns whether they were separate.
+    bool join(std::size_t a, std::size_t b) {
+        a = of(a), b = of(b);
+        leader_[std::max(a, b)] = std::min(a, b);
+        return a != b;
+    }
+
+ private:
+    std::vector<std::size_t> leader_;
+};
+
+struct Box {
+    glm::vec3 minimum{INFINITY}, maximum{-INFINITY};
+    [[nodiscard]] bool meets(const Box& other) const {
+        return glm::all(glm::lessThanEqual(minimum, other.maximum)) &&
+               glm::all(glm::lessThanEqual(other.minimum, maximum));
+    }
+};
+
+constexpr int maximumCells = 128;
+
+MarkedVoxels surfaceOf(const scene::Mesh& mesh, float cellMetres) {
+    const Lattice one = latticeAround(mesh, 1);  // its edge is the longest side
+    const int cells = std::clamp(static_cast<int>(std::ceil(one.edgeMetres / cellMetres)), 1, maximumCells);
+    return surfaceVoxels(mesh, latticeAround(mesh, cells));
+}
 
 float scaleOf(const glm::mat4& toWorld) {
     return glm::length(glm::vec3(toWorld[0]));
@@ -32,6 +71,71 @@ scene::Mesh wheelOutline(float radius, float halfWidth) {
 }
 
 }  // namespace
+
+std::vector<scene::Mesh> partsOf(const scene::Mesh& mesh) {
+    const std::size_t triangles = mesh.indices.size() / 3;
+    Groups groups(triangles);
+    std::map<std::array<float, 3>, std::size_t> firstAt;
+    for (std::size_t t = 0; t < triangles; ++t)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::vec3& p = mesh.positions[mesh.indices[3 * t + k]];
+            groups.join(t, firstAt.try_emplace({p.x, p.y, p.z}, t).first->second);
+        }
+    // Repeat until no two boxes overlap: a box that has grown may overlap more.
+    for (bool joined = true; joined;) {
+        joined = false;
+        std::map<std::size_t, Box> boxes;
+        for (std::size_t t = 0; t < triangles; ++t) {
+            Box& box = boxes[groups.of(t)];
+            for (std::size_t k = 0; k < 3; ++k) {
+                box.minimum = glm::min(box.minimum, mesh.positions[mesh.indices[3 * t + k]]);
+                box.maximum = glm::max(box.maximum, mesh.positions[mesh.indices[3 * t + k]]);
+            }
+        }
+        for (auto a = boxes.begin(); a != boxes.end(); ++a)
+            for (auto b = std::next(a); b != boxes.end(); ++b)
+                if (a->second.meets(b->second)) joined = groups.join(a->first, b->first) || joined;
+    }
+
+    std::map<std::size_t, scene::Mesh> parts;
+    const bool coloured = mesh.colours.size() == mesh.positions.size();
+    for (std::size_t t = 0; t < triangles; ++t) {
+        scene::Mesh& part = parts[groups.of(t)];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t vertex = mesh.indices[3 * t + k];
+            part.indices.push_back(static_cast<std::uint32_t>(part.positions.size()));
+            part.positions.push_back(mesh.positions[vertex]);
+            if (coloured) part.colours.push_back(mesh.colours[vertex]);
+        }
+    }
+    std::vector<scene::Mesh> list;
+    list.reserve(parts.size());
+    for (auto& [first, part] : parts) list.push_back(std::move(part));
+    return list;
+}
+
+Nearness::Nearness(const scene::Mesh& mesh, float cellMetres, float reachMetres) {
+    MarkedVoxels solid = surfaceOf(mesh, cellMetres);
+    const std::vector<std::uint8_t> onSurface = solid.marked;
+    (void)markInside(solid);  // a mesh that encloses nothing keeps only its surface
+    const float edge = solid.lattice.edgeMetres;
+    const float reach = reachMetres / edge + std::sqrt(3.0f) / 2;  // in cells, from centre to centre
+    const int rim = static_cast<int>(std::ceil(reach));
+    lattice_ = {solid.lattice.counts + 2 * rim, solid.lattice.origin - edge * static_cast<float>(rim), edge};
+    near_.assign(lattice_.size(), 0);
+    std::vector<glm::ivec3> ball;
+    for (int z = -rim; z <= rim; ++z)
+        for (int y = -rim; y <= rim; ++y)
+            for (int x = -rim; x <= rim; ++x)
+                if (glm::length(glm::vec3(x, y, z)) <= reach) ball.emplace_back(x, y, z);
+    for (std::uint32_t i = 0; i < solid.marked.size(); ++i) {
+        if (!solid.marked[i]) continue;
+        const glm::ivec3 cell = solid.lattice.cell(i) + rim;
+        near_[lattice_.index(cell)] = 1;
+        if (!onSurface[i]) continue;
+        for (const glm::ivec3& step : ball) near_[lattice_.index(cell + step)] = 1;
+    }
+}
 
 Nearness SolidPlaces::cellsAround(const scene::Mesh& mesh, float scale) const {
     return Nearness(mesh, cellMetres_ / scale, reachMetres_ / scale);

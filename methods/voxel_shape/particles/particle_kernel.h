@@ -2,19 +2,32 @@
 //
 // Units: m, s. Frame: world. Threads: pure except for the voxels' densities, which are decremented atomically. Several
 // threads may update disjoint runs of particles; the sums do not depend on the number of threads.
-// Source: JuckelBeckhaus2007, 4.2, 4.3 and 5.1.
+// Source: JuckelBeckhaus2007, 4.2, 4.3 and 5.1. Departs: the paper gives no formulas for the influences in Motion.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 
-#include "methods/voxel_shape/particles/motion.h"
 #include "methods/voxel_shape/particles/pose.h"
 #include "methods/voxel_shape/particles/shape_particles.h"
 #include "methods/voxel_shape/voxels/voxel_grid.h"
 
 namespace dustbench::voxel_shape {
+
+/// Influences on the motion of all particles of a shape, in addition to the voxels' forces, and the rule for admission
+/// to voxels.
+struct Motion {
+    glm::vec3 gravity{0};          ///< acceleration
+    glm::vec3 wind{0};             ///< velocity of the air
+    float airDragPerSecond = 0;    ///< rate at which a particle's velocity approaches the air's; 0: no air
+    float responsePerSecond = 10;  ///< rate at which spirals and helices pull a particle's velocity to their own
+    float birthSpeed = 0;          ///< maximum speed of newborns relative to the shape, in a random direction
+    float fillSeconds = 0;         ///< time in which a voxel replaces missing particles; 0: at once
+    /// Full voxels admit no particle. False, as in the paper: the maximum density limits births only.
+    bool fullVoxelsRefuse = true;
+};
 
 /// Constants of a step. `pose` is the pose at the beginning of the step, at which the particles are then: look-ups,
 /// directions of forces and the shape's own velocity all refer to that time.

@@ -1,15 +1,38 @@
-// A voxel shape in motion: its grid, its particles, and their update.
+// A voxel shape in motion: its grid, its particles, their births and their update.
 //
 // Units: m, s. Frame: world. Owns: voxels and particles, on a ledger. Threads: one caller at a time; uses the current
 // oneTBB arena; the state does not depend on the number of threads.
-// Source: JuckelBeckhaus2007, 4.3 (the update cycle).
+// Source: JuckelBeckhaus2007, 4.3 (the update cycle) and 5 (births).
 #pragma once
 
 #include "methods/kit/particles/noted_particles.h"
-#include "methods/voxel_shape/particles/emission.h"
 #include "methods/voxel_shape/particles/particle_kernel.h"
+#include "methods/voxel_shape/particles/pose.h"
+#include "methods/voxel_shape/particles/shape_particles.h"
+#include "methods/voxel_shape/voxels/voxel_grid.h"
 
 namespace dustbench::voxel_shape {
+
+/// Births: every active voxel below its maximum density emits the missing particles at random positions inside it. They
+/// have the voxel's look and the shape's velocity. Neither births nor arrivals from other voxels (particle_kernel.h,
+/// `admit`) raise a voxel above its maximum density, except for arrivals if `Motion::fullVoxelsRefuse` is false.
+/// Serials follow the order of the voxels, and random numbers are derived from the serials.
+class Emission {
+ public:
+    Emission(MemoryLedger& ledger, std::uint64_t seed);
+
+    /// Appends the particles born in one step and adds them to the densities of their voxels.
+    void emit(ShapeParticles& particles, VoxelGrid& grid, const Pose& pose, const Motion& motion, float stepSeconds);
+
+ private:
+    std::uint64_t seed_;
+    std::uint64_t nextSerial_ = 0;
+    std::uint32_t steps_ = 0;
+    [[nodiscard]] std::size_t countBirths(const VoxelGrid& grid, float share);
+
+    LedgerVector<std::uint32_t> births_;  ///< of each active voxel in this step
+    LedgerVector<std::size_t> starts_;    ///< per block of active voxels: index of its first birth
+};
 
 /// Numbers of a shape's particles.
 struct ShapeCount {

@@ -1,9 +1,10 @@
 // Benchmarks a step of particles with look-up, interpolation and one force, on grids of 16³ to 256³.
+#include "methods/voxel_shape/particles/shape_system.h"
+
 #include <benchmark/benchmark.h>
 
 #include <memory>
 
-#include "methods/voxel_shape/particles/shape_system.h"
 #include "methods/voxel_shape/voxels/surface_voxels.h"
 #include "methods/voxel_shape/voxels/test_meshes.h"
 

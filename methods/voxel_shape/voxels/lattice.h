@@ -1,11 +1,14 @@
-// The lattice of a shape's voxels: cubes of equal edge in a box, and the cell that contains a point.
+// The lattice of a shape's voxels: cubes of equal edge in a box, the cell that contains a point, and the cells that a
+// voxeliser marks.
 //
-// Units: metres. Frame: the shape's own. Threads: const members are safe from any.
+// Units: metres; colours: linear RGB. Frame: the shape's own. Threads: const members are safe from any.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "methods/contract/solid.h"
 
@@ -48,5 +51,19 @@ void requireSoundMesh(const scene::Mesh& mesh, const char* what);
 /// Returns the lattice that holds a mesh with `resolution` voxels along its longest side and as many as needed along
 /// the others. Throws InputError if the mesh is not sound or has no extent, or the resolution is outside 1..256.
 [[nodiscard]] Lattice latticeAround(const scene::Mesh& mesh, int resolution);
+
+/// The result of a voxeliser: the voxels that belong to the shape, and their colours.
+struct MarkedVoxels {
+    explicit MarkedVoxels(const Lattice& where)
+        : lattice(where), marked(where.size(), 0), colours(where.size(), glm::vec3(0)) {}
+
+    [[nodiscard]] std::size_t count() const {
+        return static_cast<std::size_t>(std::count_if(marked.begin(), marked.end(), [](auto m) { return m != 0; }));
+    }
+
+    Lattice lattice;
+    std::vector<std::uint8_t> marked;  ///< 1: part of the shape
+    std::vector<glm::vec3> colours;    ///< of the marked voxels
+};
 
 }  // namespace dustbench::voxel_shape

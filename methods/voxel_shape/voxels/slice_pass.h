@@ -7,7 +7,7 @@
 #pragma once
 
 #include "methods/kit/gpu/device.h"
-#include "methods/voxel_shape/voxels/marked_voxels.h"
+#include "methods/voxel_shape/voxels/lattice.h"
 
 namespace dustbench::voxel_shape {
 

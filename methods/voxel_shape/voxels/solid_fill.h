@@ -7,7 +7,7 @@
 // Threads: pure.
 #pragma once
 
-#include "methods/voxel_shape/voxels/marked_voxels.h"
+#include "methods/voxel_shape/voxels/lattice.h"
 
 namespace dustbench::voxel_shape {
 

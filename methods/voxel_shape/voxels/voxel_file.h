@@ -1,6 +1,6 @@
 // A shape's voxels as VTK image data (.vti), to view and edit in other programs and to read again.
 //
-// One cell per voxel; all attributes of voxel.h as cell data in their units; the field data `dustbench_voxels` is the
+// One cell per voxel; all attributes of Voxel as cell data in their units; the field data `dustbench_voxels` is the
 // version. Written to a temporary file and renamed, so never incomplete. Threads: one caller at a time.
 #pragma once
 

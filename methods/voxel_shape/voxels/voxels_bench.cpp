@@ -7,7 +7,6 @@
 #include "methods/kit/gpu/device.h"
 #include "methods/kit/meshes/mesh_file.h"
 #include "methods/voxel_shape/voxels/slice_pass.h"
-#include "methods/voxel_shape/voxels/slice_voxels.h"
 #include "methods/voxel_shape/voxels/solid_fill.h"
 #include "methods/voxel_shape/voxels/surface_voxels.h"
 #include "methods/voxel_shape/voxels/test_meshes.h"

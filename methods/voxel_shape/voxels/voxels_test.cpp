@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <glm/gtc/matrix_transform.hpp>
+#include <memory>
 #include <random>
 
 #include "methods/kit/files/data_folder.h"
@@ -8,8 +10,8 @@
 #include "methods/kit/meshes/open_edges.h"
 #include "methods/kit/testing/test_input_error.h"
 #include "methods/voxel_shape/voxels/slice_pass.h"
-#include "methods/voxel_shape/voxels/slice_voxels.h"
 #include "methods/voxel_shape/voxels/solid_fill.h"
+#include "methods/voxel_shape/voxels/solid_space.h"
 #include "methods/voxel_shape/voxels/surface_voxels.h"
 #include "methods/voxel_shape/voxels/test_meshes.h"
 #include "methods/voxel_shape/voxels/voxel_grid.h"
@@ -236,6 +238,60 @@ TEST(VoxelGrid, SharesParticlesOutEvenly) {
         EXPECT_EQ(sum, particles);
     }
     EXPECT_EQ(ledger.account("voxels").bytes(), 64 * grid.lattice().size());
+}
+
+TEST(VoxelNormals, OfASphereLookAwayFromItsMiddle) {
+    MemoryLedger ledger;
+    const scene::Mesh sphere = sphereMesh(1, 40);
+    for (const int resolution : {16, 30, 60}) {
+        const VoxelGrid grid(ledger, surfaceVoxels(sphere, latticeAround(sphere, resolution)), Voxel());
+        const std::vector<glm::vec3> normals = normalsOf(grid);
+        double sum = 0;
+        for (std::size_t k = 0; k < normals.size(); ++k) {
+            const glm::vec3 radial = glm::normalize(grid.lattice().centre(grid.lattice().cell(grid.active()[k])));
+            EXPECT_GT(glm::dot(normals[k], radial), 0.7f) << "within 45 degrees";
+            sum += static_cast<double>(glm::dot(normals[k], radial));
+        }
+        EXPECT_GT(sum / static_cast<double>(normals.size()), 0.96) << "within 16 degrees on average";
+    }
+}
+
+TEST(VoxelNormals, AreNoneWhereMatterIsTheSameOnAllSides) {
+    MemoryLedger ledger;
+    MarkedVoxels marked(Lattice{{1, 1, 1}, glm::vec3(0), 1});
+    marked.marked[0] = 1;
+    EXPECT_EQ(normalsOf(VoxelGrid(ledger, marked, Voxel()))[0], glm::vec3(0));
+}
+
+/// A cube of edge 2 around the origin, counter-clockwise as seen from outside.
+scene::Mesh cube() {
+    scene::Mesh mesh;
+    for (int corner = 0; corner < 8; ++corner)
+        mesh.positions.emplace_back(corner & 4 ? 1 : -1, corner & 2 ? 1 : -1, corner & 1 ? 1 : -1);
+    mesh.indices = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
+                    2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
+    return mesh;
+}
+
+TEST(SolidSpace, IsWhatLiesWithinASolidWhereverItStands) {
+    scene::Scene scene;
+    scene::SolidPose pose;
+    pose.toWorld = glm::rotate(glm::translate(glm::mat4(1), {5, 1, 0}), 0.6f, {0.6f, 0.8f, 0});
+    scene.solids = {{"here", std::make_shared<scene::Mesh>(cube())}, {"there", std::make_shared<scene::Mesh>(cube())}};
+    scene.solidPoses = {scene::SolidPose(), pose};
+    const SolidSpace space(scene);
+    const glm::dmat4 toThere = glm::inverse(glm::dmat4(pose.toWorld));
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> along(-2.5, 8);
+    int within = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const glm::dvec3 point(along(random), along(random) / 2, along(random) / 2);
+        const auto inCube = [](const glm::dvec3& p) { return glm::all(glm::lessThan(glm::abs(p), glm::dvec3(1))); };
+        const bool expected = inCube(point) || inCube(glm::dvec3(toThere * glm::dvec4(point, 1)));
+        ASSERT_EQ(space.contains(point), expected) << point.x << ' ' << point.y << ' ' << point.z;
+        within += expected;
+    }
+    EXPECT_GT(within, 500);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "methods/voxel_shape/shape_file.h"
+#include "methods/voxel_shape/shape.h"
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>

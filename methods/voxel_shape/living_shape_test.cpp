@@ -1,4 +1,4 @@
-#include "methods/voxel_shape/shape_track.h"
+#include "methods/voxel_shape/living_shape.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
-#include "methods/voxel_shape/particles/dust_flow.h"
+#include "methods/voxel_shape/particles/draw_along.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "methods/kit/parallel/for_each_block.h"
 #include "methods/kit/particles/chunk.h"
@@ -11,7 +12,47 @@ namespace {
 /// Cells along the shape's longest side; a puff is about as wide as a cell.
 constexpr int cellsASide = 12;
 
+/// `velocityAt`: u at a point of the world, or none beyond the grid.
+template <typename VelocityAt>
+void drawAlongField(particles::ParticleStore& s, float share, const VelocityAt& velocityAt) {
+    parallel::forEachBlock(s.size(), particles::chunkSize, [&](std::size_t first, std::size_t count) {
+        for (std::size_t i = first; i < first + count; ++i) {
+            const auto u = velocityAt(s.position(i));
+            if (!u) continue;
+            s.velocityX[i] += share * (u->x - s.velocityX[i]);
+            s.velocityY[i] += share * (u->y - s.velocityY[i]);
+            s.velocityZ[i] += share * (u->z - s.velocityZ[i]);
+        }
+    });
+}
+
 }  // namespace
+
+std::size_t drawAlong(ShapeSystem& moved, const ShapeSystem& by, float share) {
+    const Pose& pose = by.pose();
+    const VoxelGrid& grid = by.grid();
+    const Lattice& lattice = grid.lattice();
+    particles::ParticleStore& s = moved.particles().store;
+    std::atomic<std::size_t> met{0};
+    parallel::forEachBlock(s.size(), particles::chunkSize, [&](std::size_t first, std::size_t count) {
+        std::size_t found = 0;
+        for (std::size_t i = first; i < first + count; ++i) {
+            const glm::vec3 place = s.position(i);
+            const glm::vec3 at = lattice.toVoxels(pose.toLocal(place));
+            if (glm::any(glm::lessThan(at, glm::vec3(0))) ||
+                glm::any(glm::greaterThanEqual(at, glm::vec3(lattice.counts))) || !grid.at(glm::ivec3(at)).isOn())
+                continue;
+            const glm::vec3 own(s.velocityX[i], s.velocityY[i], s.velocityZ[i]);
+            const glm::vec3 drawn = own + share * (pose.velocityAt(place) - own);
+            s.velocityX[i] = drawn.x;
+            s.velocityY[i] = drawn.y;
+            s.velocityZ[i] = drawn.z;
+            ++found;
+        }
+        met += found;
+    });
+    return met;
+}
 
 template <typename Nodes, typename Visit>
 void DustFlow::forNodesAround(Nodes& nodes, const glm::vec3& place, const Visit& visit) const {
@@ -63,6 +104,21 @@ void DustFlow::drawAlong(ShapeSystem& moved, const Puffs& dust, float share) {
             s.velocityY[i] = drawn.y;
             s.velocityZ[i] = drawn.z;
         }
+    });
+}
+
+void drawAlong(particles::ParticleStore& moved, const volumes::VectorSeries& flow, double timeSeconds, float share) {
+    const volumes::VectorSeries::Moment moment = flow.momentAt(timeSeconds);
+    drawAlongField(moved, share, [&](const glm::vec3& world) { return moment.at(world); });
+}
+
+void drawAlong(particles::ParticleStore& moved, const volumes::VectorSeries& flow, const Pose& pose, double timeSeconds,
+               float share) {
+    const volumes::VectorSeries::Moment moment = flow.momentAt(timeSeconds);
+    drawAlongField(moved, share, [&](const glm::vec3& world) {
+        auto u = moment.at(pose.toLocal(world));
+        if (u) *u = pose.velocityAt(world) + pose.scale * (pose.rotation * *u);
+        return u;
     });
 }
 
