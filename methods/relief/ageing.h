@@ -16,8 +16,8 @@
 
 #include "methods/contract/choices.h"
 #include "methods/relief/particles/relief_particles.h"
-#include "methods/relief/surface/impact.h"
 #include "methods/relief/surface/sliding.h"
+#include "methods/relief/surface/worn_surface.h"
 
 namespace dustbench::relief {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "methods/relief/ageing_cost.h"
+#include "methods/relief/ageing_experiment.h"
 #include "methods/relief/surface/worn_surface.h"
 
 namespace dustbench::relief {

@@ -17,9 +17,8 @@
 #include "methods/relief/drawing/relief_pass.h"
 #include "methods/relief/particles/panel_frame.h"
 #include "methods/relief/particles/relief_particles.h"
-#include "methods/relief/particles/serial_set.h"
 #include "methods/relief/particles_gl/texture_mover.h"
-#include "methods/relief/surface/depth_pyramid.h"
+#include "methods/relief/surface/depth_map.h"
 #include "methods/relief/surface/worn_surface.h"
 
 namespace dustbench::relief {

@@ -14,7 +14,7 @@
 #include "methods/kit/draw/depth_sort.h"
 #include "methods/kit/draw/dust_shadow.h"
 #include "methods/kit/particles/particle_store.h"
-#include "methods/relief/drawing/scene_with_reliefs.h"
+#include "methods/relief/drawing/relief_pass.h"
 #include "methods/relief/living_relief.h"
 
 namespace dustbench::relief {

@@ -9,8 +9,7 @@
 #include "methods/kit/gpu/device.h"
 #include "methods/kit/pictures/image.h"
 #include "methods/relief/drawing/relief_pass.h"
-#include "methods/relief/drawing/scene_with_reliefs.h"
-#include "methods/relief/surface/depth_pyramid.h"
+#include "methods/relief/surface/depth_map.h"
 #include "methods/relief/surface/worn_surface.h"
 
 namespace dustbench::relief {

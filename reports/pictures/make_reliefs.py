@@ -160,7 +160,7 @@ def write_charts(charts, target):
 
 
 def path(law, steps, dt=1 / 60, gravity=-9.8, speed=(1.0, 0.5)):
-    """Places of a particle under relief_motion.h's laws, from the origin."""
+    """Places of a particle under relief_particles.h's laws, from the origin."""
     (x, y), (u, v), places = (0.0, 0.0), speed, [(0.0, 0.0)]
     for age in range(1, steps + 1):
         t = age * dt if law == "paper" else dt

@@ -10,7 +10,6 @@
 #include "methods/kit/draw/test_canvas.h"
 #include "methods/kit/particles/particle_store.h"
 #include "methods/relief/drawing/relief_pass.h"
-#include "methods/relief/drawing/scene_with_reliefs.h"
 
 namespace dustbench::relief {
 namespace {

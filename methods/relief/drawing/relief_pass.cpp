@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +16,34 @@
 
 namespace dustbench::relief {
 namespace {
+
+constexpr int texels = 512;  // 12 mm each, as in the opaque scene
+
+/// Appends the two triangles of a quadrilateral a, b, c, d.
+void quadrilateral(std::vector<std::uint32_t>& indices, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                   std::uint32_t d) {
+    indices.insert(indices.end(), {a, b, c, a, c, d});
+}
+
+std::vector<std::uint32_t> indicesOf(std::uint32_t columns, std::uint32_t rows) {
+    const std::uint32_t bottom = columns * rows, top = (rows - 1) * columns, right = columns - 1;
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t row = 0; row + 1 < rows; ++row)
+        for (std::uint32_t n = row * columns; n < row * columns + right; ++n)
+            quadrilateral(indices, n, n + 1, n + columns + 1, n + columns);
+    const auto rim = [&](std::uint32_t first, std::uint32_t spacing, std::uint32_t count) {
+        for (std::uint32_t k = 0; k + 1 < count; ++k) {
+            const std::uint32_t n = first + k * spacing;
+            quadrilateral(indices, n, n + spacing, n + spacing + bottom, n + bottom);
+        }
+    };
+    rim(0, 1, columns);
+    rim(top, 1, columns);
+    rim(0, columns, rows);
+    rim(right, columns, rows);
+    quadrilateral(indices, bottom, bottom + right, bottom + top + right, bottom + top);
+    return indices;
+}
 
 constexpr int stripVertices = 14;
 
@@ -50,6 +79,44 @@ gpu::Program programFor(gpu::Device& device, const ReliefStyle& style, const sce
 }
 
 }  // namespace
+
+CarShadow::CarShadow(gpu::Device& device, const scene::Scene& scene)
+    : model_(*scene.vehicle),
+      body_(device, model_.body),
+      wheel_(device, model_.wheel),
+      // The wheels extend slightly beyond the body, below and ahead.
+      map_(device, "relief car shadow", texels,
+           static_cast<double>(body_.radiusMetres()) + 2 * static_cast<double>(wheel_.radiusMetres()),
+           scene.lights.toSun),
+      caster_(device, "relief car shadow",
+              {relief_drawing_shaders::car_shadow_vert, relief_drawing_shaders::car_shadow_frag}) {}
+
+void CarShadow::draw(const scene::SceneState& state) {
+    const scene::VehiclePoses poses = scene::vehiclePoses(model_, state.vehicle);
+    map_.aim(glm::dvec3(poses.body.toWorld * glm::vec4(body_.centre(), 1)));
+    const glm::mat4 toLight = map_.eyeToLight(glm::dvec3(0));
+    const gpu::DrawState casting{.depthTest = true, .depthWrite = true};
+    map_.bindAndClear();
+    caster_.set("toLight", toLight * poses.body.toWorld);
+    body_.draw(caster_, casting);
+    for (const scene::SolidPose& pose : poses.wheels) {
+        caster_.set("toLight", toLight * pose.toWorld);
+        wheel_.draw(caster_, casting);
+    }
+}
+
+glm::mat4 CarShadow::fromPanel(const glm::dmat4& panelToWorld) const {
+    return glm::mat4(glm::dmat4(map_.eyeToTexture(glm::dvec3(0))) * panelToWorld);
+}
+
+ReliefMesh::ReliefMesh(gpu::Device& device, int columns, int rows)
+    : vertices_(device), triangles_(2 * (columns + 1) * (rows + 1), 2 * (columns + 1), 2 * (rows + 1)) {
+    const std::vector<std::uint32_t> indices =
+        indicesOf(static_cast<std::uint32_t>(columns) + 2, static_cast<std::uint32_t>(rows) + 2);
+    indexCount_ = static_cast<int>(indices.size());
+    indices_ = gpu::Buffer(device, "relief mesh", std::span<const std::uint32_t>(indices));
+    vertices_.indices(indices_);
+}
 
 ReliefPass::ReliefPass(gpu::Device& device, const scene::Scene& scene, const scene::Panel& panel,
                        const DepthPyramid& pyramid, const ReliefStyle& style)
@@ -202,6 +269,28 @@ glm::vec3 ReliefPass::colourOf(const WornSurface& surface, std::size_t texel) co
 std::size_t ReliefPass::gpuBytes() const {
     return (mesh_ ? mesh_->bytes() : 0) + depths_.bytes() + blocks_.bytes() + levels_.bytes() + colours_.bytes() +
            marks_.bytes();
+}
+
+SceneWithReliefs::SceneWithReliefs(gpu::Device& device, int width, int height)
+    : depth_(gpu::Texture::make2D(device, "scene depth with reliefs", gpu::Format::depth32F, width, height)),
+      layer_(device, depth_),
+      opaque_(device, "scene with reliefs", &layer_.colour(), &depth_),
+      copyDepth_(device, "copy depth",
+                 {relief_drawing_shaders::whole_picture_vert, relief_drawing_shaders::copy_depth_frag}),
+      copyColour_(device, "copy colour",
+                  {relief_drawing_shaders::whole_picture_vert, relief_drawing_shaders::copy_colour_frag}),
+      noVertices_(device) {}
+
+void SceneWithReliefs::begin(const gpu::Texture& sceneDepth) {
+    opaque_.bind();
+    sceneDepth.bind(0);
+    gpu::draw(copyDepth_, noVertices_, {.depthWrite = true}, gpu::Primitives::triangles, 3);
+}
+
+void SceneWithReliefs::copyTo(gpu::Layer& result) {
+    result.bindColourOnly();
+    layer_.colour().bind(0);
+    gpu::draw(copyColour_, noVertices_, {}, gpu::Primitives::triangles, 3);
 }
 
 }  // namespace dustbench::relief

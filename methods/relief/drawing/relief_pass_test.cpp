@@ -12,7 +12,6 @@
 #include "methods/kit/draw/read_back.h"
 #include "methods/kit/draw/test_canvas.h"
 #include "methods/kit/maths/srgb.h"
-#include "methods/relief/drawing/scene_with_reliefs.h"
 #include "methods/relief/surface/surface_hit.h"
 
 namespace dustbench::relief {

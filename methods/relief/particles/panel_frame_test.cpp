@@ -6,8 +6,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-#include "methods/relief/particles/serial_set.h"
-
 namespace dustbench::relief {
 namespace {
 

@@ -4,7 +4,7 @@
 // age. The columns are those of the paper's two textures: position and age, and velocity. They are moved on the CPU, or
 // by a shader (particles_gl/texture_mover.h).
 //
-// Units: m, m/s; ages in steps. Frame: the panel's. Owns: its columns, booked on a ledger.
+// Units: m, m/s, s; ages in steps. Frame: the panel's. Owns: its columns, booked on a ledger.
 // Threads: `step` uses the current oneTBB arena; results do not depend on the number of threads.
 // Source: Bergeron, 3.1 to 3.3.
 #pragma once
@@ -14,12 +14,36 @@
 #include <span>
 #include <vector>
 
+#include "methods/contract/choices.h"
 #include "methods/contract/scene.h"
-#include "methods/relief/particles/relief_motion.h"
 #include "methods/relief/surface/depth_map.h"
-#include "methods/relief/surface/depth_pyramid.h"
 
 namespace dustbench::relief {
+
+/// The motion of a particle during one step:
+///
+/// paper:  P ← P₀ + V₀·T + ½·g·T²,  V ← V₀·T + g·T,  T the age in steps times Δt; V₀ per step
+/// fixed:  P ← P₀ + V₀·Δt + ½·g·Δt²,  V ← V₀ + g·Δt
+///
+/// In the paper T is the age, which increases by one per step, and P₀ and V₀ are rewritten in each step. With one step
+/// as the unit of time the first step is right; afterwards displacement and velocity compound. In SI units, with n the
+/// age in steps: P ← P₀ + V₀·nΔt + ½·g·(nΔt)² and V ← n·(V₀ + g·Δt).
+enum class MotionLaw { paper, fixed };
+inline constexpr Choices<MotionLaw> motionLaws{{"paper", MotionLaw::paper}, {"fixed", MotionLaw::fixed}};
+
+struct Motion {
+    glm::vec3 place, velocity;
+};
+
+/// `ageSteps` includes the current step: 1 in a particle's first step.
+[[nodiscard]] inline Motion moved(MotionLaw law, const Motion& old, const glm::vec3& gravity, float ageSteps,
+                                  float stepSeconds) {
+    if (law == MotionLaw::fixed)
+        return {old.place + old.velocity * stepSeconds + gravity * (0.5f * stepSeconds * stepSeconds),
+                old.velocity + gravity * stepSeconds};
+    const float t = ageSteps * stepSeconds;
+    return {old.place + old.velocity * t + gravity * (0.5f * t * t), (old.velocity + gravity * stepSeconds) * ageSteps};
+}
 
 /// From the panel's frame to (u, v, depth) of its relief.
 class TexelFrame {

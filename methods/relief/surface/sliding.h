@@ -18,7 +18,6 @@
 #include <span>
 
 #include "methods/relief/surface/depth_map.h"
-#include "methods/relief/surface/texel_rectangle.h"
 
 namespace dustbench::relief {
 

@@ -1,10 +1,12 @@
-#include "methods/relief/surface/depth_pyramid.h"
+#include "methods/relief/surface/depth_map.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 #include <vector>
+
+#include "methods/relief/surface/worn_surface.h"
 
 namespace dustbench::relief {
 namespace {
