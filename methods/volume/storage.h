@@ -1,4 +1,4 @@
-// Interface for storing and showing a volume: as one box of cells (dense_storage.h) or as its non-empty bricks
+// Interface for storing and showing a volume: as one box of cells (volume.cpp) or as its non-empty bricks
 // (sparse/sparse_storage.h).
 //
 // Units: metres, seconds, extinction per metre. Frame: world. Threads: the OpenGL thread.

@@ -13,7 +13,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/volumes/volume_setup.h"
 #include "methods/kit/volumes/volume_sink.h"
-#include "methods/volume/sparse/bricks.h"
+#include "methods/volume/sparse/nano_tree.h"
 
 namespace dustbench::volume {
 

@@ -11,7 +11,6 @@
 #include <tuple>
 
 #include "methods/kit/testing/test_input_error.h"
-#include "methods/volume/sparse/brick_trees.h"
 #include "methods/volume/sparse/nano_walk.h"
 
 namespace dustbench::volume {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "methods/kit/raycast/cpu_march.h"
-#include "methods/volume/sparse/sparse_moment.h"
+#include "methods/volume/sparse/nano_tree.h"
 
 namespace dustbench::volume {
 

@@ -8,7 +8,7 @@
 #include "methods/kit/files/limits.h"
 #include "methods/kit/parallel/for_each_block.h"
 #include "methods/kit/volumes/file_series.h"
-#include "methods/volume/sparse/brick_trees.h"
+#include "methods/volume/sparse/nano_tree.h"
 
 namespace dustbench::volume {
 namespace {

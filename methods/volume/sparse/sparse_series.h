@@ -11,7 +11,7 @@
 
 #include "methods/kit/volumes/series_places.h"
 #include "methods/volume/sparse/brick_reader.h"
-#include "methods/volume/sparse/sparse_moment.h"
+#include "methods/volume/sparse/nano_tree.h"
 
 namespace dustbench::volume {
 

@@ -4,8 +4,7 @@
 #include <limits>
 
 #include "methods/kit/raycast/raycast_test_grid.h"
-#include "methods/volume/sparse/brick_trees.h"
-#include "methods/volume/sparse/sparse_moment.h"
+#include "methods/volume/sparse/nano_tree.h"
 
 namespace dustbench::volume {
 
