@@ -1,3 +1,5 @@
+#include "methods/dense_grid/dense_grid.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -5,7 +7,6 @@
 
 #include "methods/contract/errors.h"
 #include "methods/contract/method.h"
-#include "methods/dense_grid/grid_builder.h"
 #include "methods/kit/octree/plain_octree.h"
 #include "methods/kit/particles/particle_store.h"
 #include "methods/kit/testing/test_input_error.h"

@@ -1,5 +1,7 @@
-#include "methods/null_method/null_method.h"
+// A method that draws nothing: it measures the baseline cost of a frame, plus a load of known size to validate timing.
+#include <cstdint>
 
+#include "methods/contract/method.h"
 #include "methods/kit/maths/philox.h"
 
 namespace dustbench::null_method {
@@ -7,8 +9,7 @@ namespace {
 
 constexpr std::uint64_t numbersPerUnit = 1000;
 
-}  // namespace
-
+/// Returns the sum of 1000 random numbers per unit, drawn on one thread, so that the compiler cannot drop the work.
 std::uint32_t fixedWork(std::uint64_t units) {
     std::uint32_t sum = 0;
     for (std::uint64_t serial = 0; serial < units * numbersPerUnit; ++serial)
@@ -16,10 +17,22 @@ std::uint32_t fixedWork(std::uint64_t units) {
     return sum;
 }
 
-void NullMethod::update(const Frame&) {
-    workDone_ = fixedWork(work_);
-}
+class NullMethod final : public Method {
+ public:
+    explicit NullMethod(std::uint64_t work) : work_(work) {}
 
+    void prepare(const scene::Scene&, const RunSetup&, gpu::Device&) override {}
+    void update(const Frame&) override { workDone_ = fixedWork(work_); }
+    void draw(const Frame&, gpu::Layer&) override {}
+
+ private:
+    std::uint64_t work_;
+    volatile std::uint32_t workDone_ = 0;
+};
+
+}  // namespace
+
+/// Called by the registry.
 MethodInfo describe() {
     MethodInfo info;
     info.title = "Null method";

@@ -15,12 +15,8 @@
 #include "methods/kit/octree/octree_march_tree.h"
 #include "methods/kit/octree/plain_octree.h"
 #include "methods/kit/particles/particle_store.h"
-#include "methods/octree_recursive/list_builder.h"
-#include "methods/octree_recursive/paper_builder.h"
-#include "methods/octree_recursive/sorting_reducer.h"
-#include "methods/octree_search/grid_reducer.h"
-#include "methods/octree_search/insertion_builder.h"
-#include "methods/octree_search/paper_builder.h"
+#include "methods/octree_recursive/octree_recursive.h"
+#include "methods/octree_search/octree_search.h"
 #include "tests/octree_pair/node_walk.h"
 
 namespace dustbench::octree_pair {

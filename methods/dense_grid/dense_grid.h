@@ -1,4 +1,5 @@
-// A dense grid instead of the octree: every cell of the world's cube exists in memory, with or without dust.
+// A dense grid instead of the octree, which shows the memory that an octree saves: every cell of the world's cube
+// exists in memory, with or without dust.
 //
 // Finds the voxels that an octree has at its finest level (levels = 1). Cells are stored in Morton order, so that the
 // traversal lists voxels in the octree's order.
