@@ -4,8 +4,9 @@
 #include <charconv>
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <regex>
+#include <sstream>
 
-#include "bench/cli/slurm_script.h"
 #include "methods/contract/errors.h"
 
 namespace dustbench::cli {
@@ -101,6 +102,26 @@ std::vector<DeclaredOption> declaredOptionsOf(const CLI::App& app) {
 }
 
 }  // namespace
+
+std::vector<std::string> DeclaredOption::words() const {
+    static const std::regex list("[a-z0-9_]+(\\|[a-z0-9_]+)+", std::regex::optimize);
+    std::vector<std::string> words;
+    if (!std::regex_match(placeholder, list)) return words;
+    std::istringstream text(placeholder);
+    for (std::string word; std::getline(text, word, '|');) words.push_back(word);
+    return words;
+}
+
+std::string DeclaredOption::listKind() const {
+    static const std::regex reference("one of `dustbench list ([a-z]+)`", std::regex::optimize);
+    std::smatch found;
+    return std::regex_search(help, found, reference) ? found[1].str() : "";
+}
+
+bool DeclaredOption::takesFile() const {
+    return placeholder.find("FILE") != std::string::npos || placeholder.find("DIR") != std::string::npos ||
+           help.find("file") != std::string::npos;
+}
 
 std::vector<DeclaredCommand> declaredCommands(const std::vector<Command>& commands) {
     std::vector<DeclaredCommand> declared;
@@ -219,6 +240,19 @@ int dispatch(const std::vector<Command>& commands, const CommonOptions& common, 
     }
     common.apply();
     return chosen()->second->run();
+}
+
+std::vector<std::string> withoutOptions(const std::vector<std::string>& words,
+                                        const std::vector<std::string>& options) {
+    std::vector<std::string> rest;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::string name = words[i].substr(0, words[i].find('='));
+        if (std::ranges::find(options, name) == options.end())
+            rest.push_back(words[i]);
+        else if (name == words[i])
+            ++i;
+    }
+    return rest;
 }
 
 }  // namespace dustbench::cli

@@ -1,4 +1,4 @@
-// Declares the arguments of a subcommand. Only arguments.cpp uses the command line library.
+// Declares the arguments of a subcommand, and parses them. Only arguments.cpp uses the command line library.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "bench/cli/declared_command.h"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the library's
 class App;
@@ -66,6 +64,36 @@ struct CommonOptions {
 /// Throws InputError for invalid usage.
 [[nodiscard]] int dispatch(const std::vector<Command>& commands, const CommonOptions& common, std::string_view version,
                            const std::vector<std::string>& argv);
+
+/// The arguments of a `dustbench` command without some options and their values.
+[[nodiscard]] std::vector<std::string> withoutOptions(const std::vector<std::string>& words,
+                                                      const std::vector<std::string>& options);
+
+// --- Declarations as plain text, from which the manual page and the completions of shells are made
+
+struct DeclaredOption {
+    std::vector<std::string> names;  ///< `--frames`, `-P`; one word for a positional argument
+    std::string placeholder;         ///< `N`, `FILE`, `svg|png|pdf`; empty for flags
+    std::string help;
+    std::string initial;  ///< default value; empty if there is none
+    bool isPositional = false;
+    bool isRequired = false;
+    bool repeats = false;
+
+    [[nodiscard]] bool takesValue() const { return isPositional || !placeholder.empty(); }
+    /// The alternatives in a placeholder such as `svg|png|pdf`; none for other placeholders.
+    [[nodiscard]] std::vector<std::string> words() const;
+    /// `scenes` if the help contains "one of `dustbench list scenes`"; otherwise empty.
+    [[nodiscard]] std::string listKind() const;
+    [[nodiscard]] bool takesFile() const;
+};
+
+struct DeclaredCommand {
+    std::string name;
+    std::string summary;
+    std::string footer;
+    std::vector<DeclaredOption> options;
+};
 
 /// The declarations of the commands without the common options, and the common options with `--help`.
 [[nodiscard]] std::vector<DeclaredCommand> declaredCommands(const std::vector<Command>& commands);

@@ -7,9 +7,7 @@
 #include <memory>
 
 #include "bench/cli/commands.h"
-#include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
-#include "bench/cli/progress_printer.h"
 #include "bench/measure/sha256.h"
 #include "bench/results/stored_run.h"
 #include "bench/results/temporary_folder.h"

@@ -1,4 +1,4 @@
-// The subcommands. Each is in its own source file.
+// The subcommands, each in its own source file, and the exit codes of all.
 #pragma once
 
 #include <string>
@@ -7,6 +7,17 @@
 #include "bench/cli/arguments.h"
 
 namespace dustbench::cli {
+
+enum ExitCode {
+    exitOk = 0,
+    exitRunFailed = 1,
+    exitAborted = 2,
+    exitBadInput = 3,
+    exitInternal = 4,
+    exitRegression = 5,
+    exitNothingFits = 5,  ///< like a regression, a requested limit is not met
+    exitNotComparable = 6,
+};
 
 [[nodiscard]] Command listCommand();
 [[nodiscard]] Command envCommand();

@@ -8,12 +8,10 @@
 #include <set>
 
 #include "bench/cli/commands.h"
-#include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/regression_check.h"
 #include "bench/cli/shared_options.h"
 #include "bench/cli/suite_report.h"
-#include "bench/cli/world_options.h"
 #include "bench/report/side_by_side_sheet.h"
 #include "bench/suite/side_by_side.h"
 #include "methods/contract/errors.h"

@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "bench/cli/commands.h"
-#include "bench/cli/exit_codes.h"
 #include "bench/cli/text_table.h"
 #include "bench/measure/image/flip.h"
 #include "bench/measure/image/heat_map.h"

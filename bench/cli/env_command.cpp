@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "bench/cli/commands.h"
-#include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
 #include "bench/measure/energy.h"
 #include "bench/results/run_record.h"

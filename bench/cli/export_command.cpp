@@ -3,13 +3,8 @@
 #include <memory>
 
 #include "bench/cli/commands.h"
-#include "bench/cli/exit_codes.h"
-#include "bench/cli/interruption.h"
 #include "bench/cli/plan_runner.h"
-#include "bench/cli/progress_printer.h"
 #include "bench/cli/shared_options.h"
-#include "bench/cli/volume_options.h"
-#include "bench/cli/world_options.h"
 #include "bench/measure/provenance.h"
 #include "bench/run/export_run.h"
 #include "methods/contract/errors.h"

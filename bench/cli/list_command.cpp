@@ -7,8 +7,7 @@
 #include <memory>
 
 #include "bench/cli/commands.h"
-#include "bench/cli/exit_codes.h"
-#include "bench/cli/suite_listing.h"
+#include "bench/cli/suite_report.h"
 #include "bench/suite/catalogue.h"
 #include "bench/suite/method_libraries.h"
 #include "methods/contract/errors.h"

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "bench/cli/commands.h"
-#include "bench/cli/exit_codes.h"
 #include "bench/measure/provenance.h"
 #include "bench/suite/method_libraries.h"
 #include "methods/contract/errors.h"

@@ -11,15 +11,11 @@
 #include <optional>
 
 #include "bench/cli/commands.h"
-#include "bench/cli/exit_codes.h"
-#include "bench/cli/interruption.h"
 #include "bench/cli/plan_runner.h"
-#include "bench/cli/progress_printer.h"
 #include "bench/cli/shared_options.h"
 #include "bench/export/whole_file.h"
 #include "bench/measure/clock_watch.h"
 #include "bench/report/page.h"
-#include "bench/report/page_template.h"
 #include "bench/report/report_reader.h"
 #include "bench/results/run_tables.h"
 #include "bench/run/child_process.h"

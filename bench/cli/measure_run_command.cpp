@@ -6,7 +6,6 @@
 #include <iostream>
 
 #include "bench/cli/commands.h"
-#include "bench/cli/exit_codes.h"
 #include "bench/results/results_folder.h"
 #include "bench/run/measured_run.h"
 #include "bench/run/plan_forecast.h"

@@ -6,8 +6,7 @@
 #include <set>
 
 #include "bench/cli/commands.h"
-#include "bench/cli/exit_codes.h"
-#include "bench/cli/interruption.h"
+#include "bench/cli/plan_runner.h"
 #include "bench/results/compared_runs.h"
 #include "bench/results/merge.h"
 #include "bench/results/stored_run.h"

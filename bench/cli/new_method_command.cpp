@@ -9,7 +9,6 @@
 #include <regex>
 
 #include "bench/cli/commands.h"
-#include "bench/cli/exit_codes.h"
 #include "bench/export/whole_file.h"
 #include "bench/results/shell_words.h"
 #include "methods/contract/errors.h"

@@ -1,7 +1,9 @@
 // Executes a plan with progress output, Ctrl-C handling and exit codes, for `run`, `suite`, `reproduce` and others.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "bench/run/executor.h"
@@ -35,5 +37,45 @@ void requireOpenGl();
 /// Executes the plan and returns the exit code. Throws InputError.
 [[nodiscard]] int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::ResultsFolder& results,
                           const PlanOptions& options);
+
+/// Shows the progress of a plan on stderr: a bar on a terminal, plain lines elsewhere.
+class ProgressPrinter : public bench::ExecutionListener {
+ public:
+    /// `showsSteps`: show the progress within a run, if only one runs at a time.
+    explicit ProgressPrinter(bool showsSteps = true);
+
+    void started(std::size_t position, std::size_t total, const bench::PlannedRun& run, int repetitions,
+                 double etaSeconds) override;
+    void progressed(std::string_view line) override;
+    void ended(const bench::PlannedRun& run, bench::RunStatus status, const std::string& reason) override;
+    /// Call before printing anything else.
+    void eraseBar();
+
+ private:
+    [[nodiscard]] int terminalWidth() const;
+    [[nodiscard]] double phaseSeconds(std::chrono::steady_clock::time_point now) const;
+
+    bool terminal_, showsSteps_;
+    std::string last_;                                  ///< the run's last message
+    std::chrono::steady_clock::time_point phaseStart_;  ///< start of the run's current phase
+    std::chrono::steady_clock::time_point lastShown_;
+};
+
+// --- Interruption
+
+/// After this call, Ctrl-C, `kill` and a closed terminal only set a flag to poll, so that results are never left
+/// incomplete.
+void listenForInterruption();
+[[nodiscard]] bool interrupted();
+
+/// During its lifetime, these signals end the program immediately with exitAborted. For work that cannot poll and
+/// writes nothing.
+class EndsWhenInterrupted {
+ public:
+    EndsWhenInterrupted();
+    ~EndsWhenInterrupted() { listenForInterruption(); }
+    EndsWhenInterrupted(const EndsWhenInterrupted&) = delete;
+    EndsWhenInterrupted& operator=(const EndsWhenInterrupted&) = delete;
+};
 
 }  // namespace dustbench::cli

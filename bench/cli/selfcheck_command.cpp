@@ -10,9 +10,7 @@
 #include <thread>
 
 #include "bench/cli/commands.h"
-#include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
-#include "bench/cli/progress_printer.h"
 #include "bench/cli/text_table.h"
 #include "bench/export/whole_file.h"
 #include "bench/results/temporary_folder.h"

@@ -2,27 +2,87 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "bench/cli/commands.h"
-#include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
-#include "bench/cli/slurm_script.h"
-#include "bench/cli/suite_listing.h"
 #include "bench/cli/suite_report.h"
-#include "bench/cli/volume_options.h"
 #include "bench/measure/provenance.h"
+#include "bench/report/page.h"
+#include "bench/results/shell_words.h"
 #include "bench/suite/baselines.h"
 #include "bench/suite/shard.h"
 #include "bench/suite/suite.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/limits.h"
+#include "methods/kit/files/whole_text.h"
 
 namespace dustbench::cli {
 namespace {
+
+// --- The Slurm array job of a suite: one task per shard, followed by a job that merges the results
+
+struct SlurmJob {
+    std::string name;                    ///< of the suite
+    std::string program, folder, out;    ///< absolute; `folder` is the working directory of the command
+    std::vector<std::string> arguments;  ///< of `dustbench`, without --out, --slurm and --shard
+    int shards = 1;
+    std::size_t runs = 0, maximumRunsOfShard = 0;
+    double timeoutSeconds = 0;   ///< of one run
+    double cooldownSeconds = 0;  ///< between two runs
+};
+
+/// Overhead of starting a run, and of a shard. The values are generous, because a task that Slurm kills loses a run,
+/// while one that ends early costs nothing.
+constexpr double secondsAroundRun = 15, secondsAroundShard = 120;
+
+/// Letters, digits and a few characters without a special meaning for Slurm, which interprets % in file names.
+std::string plainName(const std::string& text) {
+    std::string plain = text;
+    std::ranges::replace_if(
+        plain,
+        [](char letter) {
+            return !std::isalnum(static_cast<unsigned char>(letter)) && letter != '-' && letter != '_' && letter != '.';
+        },
+        '_');
+    return plain;
+}
+
+/// `1-02:30:00`
+std::string slurmTime(double seconds) {
+    const auto minutes = static_cast<long long>(std::ceil(seconds / 60));
+    return fmt::format("{}-{:02}:{:02}:00", minutes / (24 * 60), minutes / 60 % 24, minutes % 60);
+}
+
+/// A bash script. `sbatch` accepts it as an array job; run directly, it submits itself and the merge job.
+std::string slurmScript(const SlurmJob& job) {
+    const double around = secondsAroundRun + job.cooldownSeconds;
+    const double seconds =
+        secondsAroundShard + static_cast<double>(job.maximumRunsOfShard) * (job.timeoutSeconds + around);
+    std::string arguments;
+    for (const std::string& word : job.arguments) arguments += " " + bench::shellQuoted(word);
+    const std::filesystem::path file = files::dataPath("templates/slurm.sh");
+    if (file.empty()) throw InputError("data: the file templates/slurm.sh is missing");
+    return bench::filled(files::wholeText(file, "template"), {{"name", plainName(job.name)},
+                                                              {"shards", std::to_string(job.shards)},
+                                                              {"time", slurmTime(seconds)},
+                                                              {"runs", std::to_string(job.runs)},
+                                                              {"most", std::to_string(job.maximumRunsOfShard)},
+                                                              {"timeout", fmt::format("{:g}", job.timeoutSeconds)},
+                                                              {"around", fmt::format("{:g}", around)},
+                                                              {"extra", fmt::format("{:g}", secondsAroundShard)},
+                                                              {"program", bench::shellQuoted(job.program)},
+                                                              {"folder", bench::shellQuoted(job.folder)},
+                                                              {"out", bench::shellQuoted(job.out)},
+                                                              {"arguments", arguments}});
+}
+
+// --- The command
 
 struct SuiteOptions {
     std::string suite, out, order, shard;

@@ -5,7 +5,6 @@
 
 #include "bench/claims/lent_context.h"
 #include "bench/cli/commands.h"
-#include "bench/cli/exit_codes.h"
 #include "bench/cli/text_table.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"

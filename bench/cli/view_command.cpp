@@ -7,10 +7,8 @@
 #include <memory>
 
 #include "bench/cli/commands.h"
-#include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
-#include "bench/cli/world_options.h"
 #include "bench/run/thread_limit.h"
 #include "bench/view/keys.h"
 #include "bench/view/split_view.h"
@@ -19,7 +17,7 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/files/whole_text.h"
 #ifdef DUSTBENCH_PANELS
-#include "bench/view/panels/panel_picture.h"
+#include "bench/view/panels/viewer_panels.h"
 #endif
 #ifdef DUSTBENCH_WINDOW
 #include "bench/view/window/view_window.h"

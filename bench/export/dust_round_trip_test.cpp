@@ -1,8 +1,8 @@
 // Exporting dust and reading it back gives the same dust.
 #include <gtest/gtest.h>
 
-#include "bench/export/series.h"
-#include "bench/export/vtp_writer.h"
+#include "bench/export/exporter.h"
+#include "bench/export/format_writers.h"
 #include "bench/scene/world.h"
 #include "methods/kit/testing/test_folder.h"
 

@@ -11,9 +11,8 @@
 #include <chrono>
 #include <filesystem>
 
+#include "bench/export/format_writers.h"
 #include "bench/export/test_clouds.h"
-#include "bench/export/vdb_writer.h"
-#include "bench/export/vti_writer.h"
 
 namespace dustbench::bench {
 namespace {

@@ -21,7 +21,6 @@
 
 #include "bench/export/collected_volume.h"
 #include "bench/export/extinction_grid.h"
-#include "bench/export/series.h"
 #include "bench/export/vtk_file.h"
 #include "methods/contract/scene.h"
 #include "methods/contract/volume.h"
@@ -39,6 +38,32 @@ struct ExportedMoment {
     std::span<const std::string> configuration{};  ///< what determines the state, `name=value` each
 
     [[nodiscard]] FileOrigin origin() const { return {state.timeSeconds, method, configuration}; }
+};
+
+/// An index file that maps the files of single frames to simulation times: `.pvd` for ParaView and PyVista, `.series`
+/// for ParaView's file reader.
+class Series {
+ public:
+    enum class Kind { pvd, json };
+
+    Series(std::filesystem::path file, Kind kind) : file_(std::move(file)), kind_(kind) {}
+
+    /// Adds a frame; `name` is its file, in the folder of the series. Rewrites the whole series, so that it never names
+    /// an incomplete file. Throws InputError if it cannot be written.
+    void add(std::string_view name, double timeSeconds);
+    [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
+ private:
+    std::filesystem::path file_;
+    Kind kind_;
+    struct Entry {
+        std::string name;
+        double timeSeconds;
+    };
+    std::vector<Entry> entries_;
+
+    [[nodiscard]] std::string pvdText() const;
+    [[nodiscard]] std::string jsonText() const;
 };
 
 /// The folder of an export, the series in it and its settings.

@@ -1,5 +1,3 @@
-#include "bench/export/htg_writer.h"
-
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
@@ -15,6 +13,7 @@
 #include <stdexcept>
 
 #include "bench/export/exporter.h"
+#include "bench/export/format_writers.h"
 #include "bench/export/vtk_file.h"
 #include "bench/export/whole_file.h"
 

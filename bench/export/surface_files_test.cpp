@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-#include "bench/export/surface_writer.h"
+#include "bench/export/format_writers.h"
 #include "methods/kit/pictures/image.h"
 #include "methods/kit/testing/test_folder.h"
 

@@ -1,4 +1,4 @@
-#include "bench/export/vdb_writer.h"
+#include "bench/export/format_writers.h"
 
 #include <fmt/format.h>
 #include <openvdb/io/Archive.h>

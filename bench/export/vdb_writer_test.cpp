@@ -1,12 +1,11 @@
 // OpenVDB's own Python module reads back what was written.
-#include "bench/export/vdb_writer.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <sstream>
 
+#include "bench/export/format_writers.h"
 #include "bench/export/test_clouds.h"
 #include "methods/kit/testing/python_script.h"
 

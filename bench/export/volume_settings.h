@@ -1,4 +1,4 @@
-// Settings of a volume export: frames, formats, resolution and region.
+// Settings of a volume export: frames, formats, resolution and region, and their texts.
 //
 // Units: metres. Frame: world.
 #pragma once
@@ -12,9 +12,24 @@
 #include <utility>
 #include <vector>
 
-#include "bench/export/frame_range.h"
-
 namespace dustbench::bench {
+
+/// The frames of a run to export. Never empty: `first` is always included.
+struct FrameRange {
+    std::int64_t first = 0;
+    std::int64_t last = 0;  ///< the last frame included
+    std::int64_t step = 1;
+
+    [[nodiscard]] bool contains(std::int64_t frame) const {
+        return frame >= first && frame <= last && (frame - first) % step == 0;
+    }
+    [[nodiscard]] std::int64_t count() const { return (last - first) / step + 1; }
+    /// `A:B:STEP`; equal ranges have equal text.
+    [[nodiscard]] std::string text() const;
+};
+
+/// `A:B:STEP` excluding B, `A:B` for every frame, or only `A`. Throws InputError with a message starting with `what`.
+[[nodiscard]] FrameRange parseFrameRange(std::string_view what, std::string_view text);
 
 /// `vti,htg`: ids of exporters (exporter.h), each once, in their order. Throws InputError.
 [[nodiscard]] std::vector<std::string> parseFormats(std::string_view text);

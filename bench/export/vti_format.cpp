@@ -1,5 +1,3 @@
-#include "bench/export/vti_writer.h"
-
 #include <fmt/format.h>
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
@@ -9,6 +7,7 @@
 #include <vtkXMLImageDataWriter.h>
 
 #include "bench/export/exporter.h"
+#include "bench/export/format_writers.h"
 #include "bench/export/vtk_file.h"
 #include "bench/export/whole_file.h"
 

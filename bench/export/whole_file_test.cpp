@@ -8,9 +8,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "bench/export/format_writers.h"
 #include "bench/export/test_clouds.h"
-#include "bench/export/vdb_writer.h"
-#include "bench/export/vti_writer.h"
 #include "methods/kit/files/machine_error.h"
 #include "methods/kit/testing/test_folder.h"
 

@@ -1,6 +1,6 @@
 // A contact sheet: pictures in a grid with headings, captions and a colour bar, for use as a figure in a paper.
 //
-// White background, dark grey text in DejaVu Sans. Text wider than its column is broken into lines (text_lines.h).
+// White background, dark grey text in DejaVu Sans. Text wider than its column is broken into lines.
 // Pictures are shown as on a display (clamped to [0, 1]), resampled in linear light to tiles 400 pixels wide.
 //
 // Units: pixels. Printed 17 cm wide, five columns have captions of 6 points. Threads: pure.
@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "methods/kit/pictures/image.h"
@@ -41,5 +42,20 @@ struct ContactSheet {
 [[nodiscard]] std::string contactSheetSvg(const ContactSheet& sheet);
 
 inline constexpr int maximumSheetSide = 32'767;  ///< limit of rsvg-convert
+
+// --- Lines of text, which another program draws
+
+struct Lettering {
+    double pixels = 28;  ///< nominal height
+    bool bold = false;
+};
+
+/// Estimated from the advances of DejaVu Sans. Bold text is never wider than estimated.
+[[nodiscard]] double textWidth(std::string_view text, const Lettering& lettering);
+
+/// Breaks text into lines of at most `widthPixels`: first at two or more spaces, which mark the preferred place, then
+/// between words, then within words. Blank text has no lines. `text` is UTF-8.
+[[nodiscard]] std::vector<std::string> brokenText(std::string_view text, double widthPixels,
+                                                  const Lettering& lettering);
 
 }  // namespace dustbench::bench

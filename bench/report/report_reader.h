@@ -21,4 +21,17 @@ inline constexpr std::int64_t defaultPictureBytes = 12'000'000;
 /// a folder.
 [[nodiscard]] ReportData readReport(const std::filesystem::path& folder, std::int64_t maximumPictureBytes);
 
+// --- Frame times of a bounded number of runs
+
+inline constexpr std::size_t maximumRunsWithFrameTimes = 64;
+inline constexpr std::size_t maximumTracePoints = 400;
+inline constexpr std::size_t minimumBins = 8, maximumBins = 40;  // of a histogram
+
+/// Condenses all frames; the caller sets `label` and ids. Bins have equal width from the minimum to the maximum.
+[[nodiscard]] FrameTimes condense(const std::vector<double>& frameMs);
+
+/// Reads the first repetition of each cell, or of evenly spread cells if there are too many. Unreadable files are
+/// reported in the data's problems.
+void readFrameTimes(const std::filesystem::path& folder, ReportData& data);
+
 }  // namespace dustbench::bench

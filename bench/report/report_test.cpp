@@ -12,9 +12,7 @@
 
 #include "bench/report/chart_file.h"
 #include "bench/report/folder_fixture.h"
-#include "bench/report/frame_times.h"
 #include "bench/report/page.h"
-#include "bench/report/papers_page.h"
 #include "bench/report/picture_sets.h"
 #include "bench/report/report_json.h"
 #include "bench/report/report_reader.h"

@@ -1,6 +1,4 @@
 // The ground truth as half B, and its metrics, compared with those of a run with metrics.
-#include "bench/view/exact_half.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +6,7 @@
 #include <algorithm>
 
 #include "bench/run/measured_run.h"
+#include "bench/view/view_session.h"
 #include "bench/view/viewer.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/draw/read_back.h"

@@ -8,8 +8,12 @@
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "bench/export/collected_volume.h"
+#include "bench/measure/image/plane.h"
 #include "bench/view/view_session.h"
+#include "methods/contract/view.h"
 #include "methods/kit/gpu/texture.h"
+#include "methods/kit/pictures/image.h"
 
 namespace dustbench::bench {
 
@@ -36,7 +40,7 @@ class MomentMaps {
     /// Number of primitives over each pixel in heat colours from 0 to `overdrawLimit`, on one scale for both halves. A
     /// half without primitives is black.
     [[nodiscard]] const gpu::Texture& overdraw(ViewSession& session, Half half);
-    /// Outlines of the primitives over the darkened picture (outlines.h). The half must be current.
+    /// Outlines of the primitives over the darkened picture (withOutlines). The half must be current.
     [[nodiscard]] const gpu::Texture& outlines(ViewSession& session, Half half);
     [[nodiscard]] double overdrawLimit() const { return overdrawLimit_; }
 
@@ -59,5 +63,17 @@ class MomentMaps {
     std::optional<double> flipMean_;
     double flipSeconds_ = 0, overdrawLimit_ = 1;
 };
+
+/// How many outlines of a method's primitives pass through each pixel, with rows from the top: the quad around each
+/// puff, the twelve edges of each voxel. Neither the scene nor other primitives hide them.
+struct Outlines {
+    Plane quads;   ///< of puffs: squares that face the camera, with half side 1.5 r, as in overdrawMap
+    Plane voxels;  ///< edges of the octrees' voxels, clipped in front of the eye
+};
+[[nodiscard]] Outlines outlinesOf(const CollectedVolume& volume, const scene::View& view);
+
+/// Draws quads yellow and voxels blue over the darkened picture, brighter where several overlap. Linear light. Throws
+/// std::invalid_argument if the sizes differ.
+[[nodiscard]] pictures::Image withOutlines(pictures::Image picture, const Outlines& outlines);
 
 }  // namespace dustbench::bench

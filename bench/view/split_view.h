@@ -1,14 +1,17 @@
 // Combines the pictures of two halves: with a divider, side by side, one alone, or as a signed difference.
 //
 // Units: shares of width and height from the lower left corner. Zooming in repeats pixels, so that single pixels stay
-// visible. Pictures with fewer rows than the target are interpolated.
+// visible. Pictures with fewer rows than the target are interpolated. Threads: the device's.
 #pragma once
+
+#include <span>
 
 #include "methods/contract/choices.h"
 #include "methods/kit/gpu/framebuffer.h"
 #include "methods/kit/gpu/program.h"
 #include "methods/kit/gpu/texture.h"
 #include "methods/kit/gpu/vertex_array.h"
+#include "methods/kit/pictures/image.h"
 
 namespace dustbench::bench {
 
@@ -66,5 +69,12 @@ class SplitView {
     gpu::Program program_;
     gpu::VertexArray noVertices_;
 };
+
+// --- Pictures and maps computed on the CPU, as textures. Rows from the top become rows from the bottom.
+
+/// Uploads into a texture of the image's size: unchanged into rgba32F, display-encoded and opaque into rgba8.
+void upload(const pictures::Image& image, gpu::Texture& texture);
+/// Uploads one number per pixel into a texture with one channel.
+void uploadRows(std::span<const float> values, gpu::Texture& texture);
 
 }  // namespace dustbench::bench

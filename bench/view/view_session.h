@@ -14,15 +14,42 @@
 #include <string>
 
 #include "bench/measure/clock.h"
+#include "bench/reference/judge/moment_metrics.h"
 #include "bench/run/method_host.h"
 #include "bench/scene/control_recording.h"
 #include "bench/scene/keyboard_controls.h"
 #include "bench/scene/world.h"
-#include "bench/view/exact_half.h"
+#include "bench/view/split_view.h"
 #include "bench/view/view_state.h"
 #include "methods/kit/gpu/device.h"
 
 namespace dustbench::bench {
+
+/// The ground truth of one moment as textures, and the metrics of a method compared with it. bench/reference draws it,
+/// as for the metrics of a run (bench/reference/judge). That takes from a few milliseconds to seconds.
+class ExactHalf {
+ public:
+    ExactHalf(gpu::Device& device, int width, int height);
+
+    /// Draws the dust, given in its colours without light, in front of the method's scene and compares the method's
+    /// picture with it. `whyNotEvaluated`: why metrics would be meaningless; if empty, they are computed.
+    void draw(const DrawnMoment& drawn, const scene::Scene& scene, const scene::View& view, const Puffs& dust,
+              std::string whyNotEvaluated);
+
+    [[nodiscard]] HalfTextures textures() const { return {display_, scene_, layer_, depth_}; }
+    /// The ground truth and the method's picture: linear light, opaque.
+    [[nodiscard]] const EvaluatedMoment& evaluated() const { return evaluated_; }
+    /// Why `evaluated` has no metrics; empty if it has.
+    [[nodiscard]] const std::string& whyNotEvaluated() const { return whyNotEvaluated_; }
+    /// Duration of the last draw(), including metrics.
+    [[nodiscard]] double seconds() const { return seconds_; }
+
+ private:
+    gpu::Texture display_, scene_, layer_, depth_;
+    EvaluatedMoment evaluated_;
+    std::string whyNotEvaluated_;
+    double seconds_ = 0;
+};
 
 /// Milliseconds by stage (methods/contract/stage_clock.h). Each stage ends with a wait for the GPU, so that it includes
 /// the work that it queued.

@@ -8,11 +8,9 @@
 #include <iterator>
 
 #include "source_folder.h"
-#include "tests/architecture/own_names.h"
 #include "tests/architecture/source_rules.h"
 
 namespace dustbench::architecture {
-
 namespace {
 
 const std::filesystem::path root = DUSTBENCH_SOURCE_DIR;

@@ -52,4 +52,21 @@ using Faults = std::vector<std::string>;
 /// The text with comments and the contents of string and character literals blanked; lines stay where they are.
 [[nodiscard]] std::string codeOnly(std::string_view text);
 
+// --- Names in unnamed namespaces. The build compiles files of a module together
+// (reports/decisions/0019-joined-files.md): a type of the same name is an error there, and a function may silently
+// become an overload of the other file's.
+
+struct OwnName {
+    std::string name;
+    std::string space;  ///< the named namespace around the unnamed one
+    std::size_t line;   ///< from 1
+};
+
+/// The declarations of a file in unnamed namespaces, as laid out by `make format`, except members, tests and `using`s
+/// of other names.
+[[nodiscard]] std::vector<OwnName> ownNames(std::string_view text);
+
+/// Names that two files of a folder (with its `parts/`) declare in this way; module, tests and benchmarks separately.
+[[nodiscard]] Faults sharedNameFaults(const std::vector<SourceFile>& files);
+
 }  // namespace dustbench::architecture

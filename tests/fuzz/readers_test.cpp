@@ -6,9 +6,7 @@
 #include <functional>
 #include <random>
 
-#include "bench/export/vdb_writer.h"
-#include "bench/export/vti_writer.h"
-#include "bench/export/vtp_writer.h"
+#include "bench/export/format_writers.h"
 #include "bench/report/page.h"
 #include "bench/report/report_reader.h"
 #include "bench/results/run_record.h"

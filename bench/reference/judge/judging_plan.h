@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/export/frame_range.h"
+#include "bench/export/volume_settings.h"
 
 namespace dustbench::bench {
 

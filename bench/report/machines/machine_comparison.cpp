@@ -3,9 +3,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
 #include "bench/export/whole_file.h"
-#include "bench/report/page_template.h"
+#include "bench/measure/provenance.h"
+#include "bench/report/json_parts.h"
+#include "bench/report/page.h"
 #include "bench/report/report_files.h"
+#include "bench/results/method_facts.h"
+#include "bench/suite/catalogue.h"
+#include "methods/contract/choices.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/machine_error.h"
 
@@ -27,6 +36,86 @@ void requireOtherFolder(const fs::path& file, const MachineSet& set) {
                             "folder or file",
                             data.folder));
     }
+}
+
+constexpr Choices<Agreement> agreementTexts{{"agree", Agreement::agree},
+                                            {"agree, by different factors", Agreement::factor},
+                                            {"differ", Agreement::differ},
+                                            {"open", Agreement::open},
+                                            {"one machine only", Agreement::alone}};
+
+using nlohmann::json;
+
+/// `[ratio, low, high, pairs, verdict, reason]`; null: not measured.
+json sideJson(const SideRatio& side) {
+    if (side.result.pairs == 0 && side.reason == "not measured") return nullptr;
+    return {number(side.result.ratio), number(side.result.low),          number(side.result.high),
+            side.result.pairs,         verdictName(side.result.verdict), side.reason};
+}
+
+json rowJson(const RatioRow& row) {
+    return {{"world", row.world},
+            {"agreement", agreementText(agreementOf(row.sides))},
+            {"sides", each(row.sides, sideJson)}};
+}
+
+json ratioJson(const MachineRatio& ratio) {
+    return {{"of", ratio.of},         {"with", ratio.with},        {"column", ratio.column},
+            {"common", ratio.common}, {"all", rowJson(ratio.all)}, {"worlds", each(ratio.worlds, rowJson)}};
+}
+
+json valueJson(const MachineValue& value) {
+    return {{"variant", value.variant},
+            {"world", value.world},
+            {"machine", value.side},
+            {"column", value.column},
+            {"values", {number(value.value.median), number(value.value.low), number(value.value.high)}},
+            {"of", value.value.values},
+            {"seeds", value.overSeeds},
+            {"probability", number(value.value.probability)}};
+}
+
+json experimentJson(const MachineExperiment& experiment) {
+    return {{"id", experiment.id},
+            {"title", experiment.title},
+            {"summary", experiment.summary},
+            {"reference", experiment.reference},
+            {"axes",
+             each(experiment.axes,
+                  [](const WorldAxis& axis) {
+                      return json{
+                          {"name", axis.name}, {"unit", axis.unit}, {"numeric", axis.numeric}, {"values", axis.values}};
+                  })},
+            {"variants", each(experiment.variants,
+                              [](const MachineVariant& variant) {
+                                  return json{{"method", variant.method}, {"label", variant.label}};
+                              })},
+            {"worlds", experiment.worlds},
+            {"ratios", each(experiment.ratios, ratioJson)},
+            {"values", each(experiment.values, valueJson)}};
+}
+
+json claimsJson(const SharedClaim& shared) {
+    json claim = claimJson(shared.any());
+    claim["agreement"] = agreementText(shared.agreement);
+    claim["folders"] = each(shared.folders, [](const EvaluatedClaim* evaluated) {
+        if (!evaluated) return json(nullptr);
+        json own = claimJson(*evaluated);
+        json kept = json::object();
+        for (const char* name : {"verdict", "verdictText", "measured", "low", "high", "control", "condition", "note"})
+            kept[name] = std::move(own[name]);
+        return kept;
+    });
+    return claim;
+}
+
+json remarksJson(const MachineRemarks& remarks) {
+    return {{"apart", remarks.apart},
+            {"programs", remarks.programs},
+            {"notes", remarks.notes},
+            {"missing", each(remarks.missing, [](const MissingCell& missing) {
+                 return json{{"cell", missing.cell}, {"on", missing.on}, {"lacking", missing.lacking}};
+             })}};
 }
 
 }  // namespace
@@ -65,6 +154,93 @@ fs::path writeMachinesPage(const fs::path& out, const MachineComparison& compari
     if (error) files::failWriting(folder.string(), error.value());
     writeWhole(file, page);
     return file;
+}
+
+std::string_view agreementText(Agreement agreement) {
+    return agreementTexts.wordOf(agreement);
+}
+
+Agreement agreementOf(const std::vector<SideRatio>& sides) {
+    std::vector<const PairedRatio*> measured;
+    std::set<Verdict> resolved;
+    for (const SideRatio& side : sides) {
+        if (side.result.pairs == 0) continue;
+        measured.push_back(&side.result);
+        if (side.result.verdict != Verdict::unresolved) resolved.insert(side.result.verdict);
+    }
+    if (measured.size() < 2) return Agreement::alone;
+    if (resolved.size() > 1) return Agreement::differ;
+    if (std::ranges::any_of(measured, [](const PairedRatio* one) { return one->verdict == Verdict::unresolved; }))
+        return Agreement::open;
+    for (const PairedRatio* a : measured)
+        for (const PairedRatio* b : measured)
+            if (a->low > b->high) return Agreement::factor;
+    return Agreement::agree;
+}
+
+Agreement agreementOf(const std::vector<ClaimVerdict>& verdicts) {
+    std::set<ClaimVerdict> decided;
+    std::size_t tested = 0, open = 0;
+    for (const ClaimVerdict verdict : verdicts) {
+        if (verdict == ClaimVerdict::notTested) continue;
+        ++tested;
+        if (verdict == ClaimVerdict::unresolved || verdict == ClaimVerdict::untestable)
+            ++open;
+        else
+            decided.insert(verdict);
+    }
+    if (tested < 2) return Agreement::alone;
+    if (decided.size() > 1) return Agreement::differ;
+    return open > 0 ? Agreement::open : Agreement::agree;
+}
+
+const EvaluatedClaim& SharedClaim::any() const {
+    return **std::ranges::find_if(folders, [](const EvaluatedClaim* claim) { return claim != nullptr; });
+}
+
+std::vector<SharedClaim> sharedClaims(const MachineSet& set) {
+    std::vector<SharedClaim> claims;
+    for (std::size_t folder = 0; folder < set.folders.size(); ++folder)
+        for (const EvaluatedClaim& evaluated : set.folders[folder].claims) {
+            auto found = std::ranges::find_if(claims, [&](const SharedClaim& known) {
+                return known.any().paper == evaluated.paper && known.any().claim.id == evaluated.claim.id;
+            });
+            if (found == claims.end()) {
+                claims.push_back({std::vector<const EvaluatedClaim*>(set.folders.size(), nullptr), {}});
+                found = std::prev(claims.end());
+            }
+            found->folders[folder] = &evaluated;
+        }
+    for (SharedClaim& claim : claims) {
+        std::vector<ClaimVerdict> verdicts;
+        for (const EvaluatedClaim* evaluated : claim.folders)
+            if (evaluated) verdicts.push_back(evaluated->result.verdict);
+        claim.agreement = agreementOf(verdicts);
+    }
+    std::ranges::stable_sort(claims, {}, [](const SharedClaim& claim) { return claim.any().paper; });
+    return claims;
+}
+
+std::string machinesJson(const MachineComparison& comparison) {
+    const MachineSet& set = comparison.set;
+    json root{{"written", set.folders.front().writtenUtc}, {"version", buildFacts().version}, {"folders", set.labels}};
+    root["machines"] = each(set.sides, [](const MachineSide& side) {
+        return json{{"label", side.label}, {"folder", side.folder}, {"software", isSoftware(side)}};
+    });
+    root["hardware"] = each(comparison.hardware, [](const HardwareRow& row) {
+        return json{{"name", row.name}, {"values", row.values}, {"differs", row.differs()}};
+    });
+    root["remarks"] = remarksJson(comparison.remarks);
+    root["experiments"] = each(comparison.experiments, experimentJson);
+    root["claims"] = each(comparison.claims, claimsJson);
+    json papers = json::object();
+    for (const ReportData& folder : set.folders)
+        for (const Paper& paper : folder.papers) papers[paper.id] = paper.title;
+    root["papers"] = std::move(papers);
+    root["facts"] = each(methodFacts(), [](const MethodFact& fact) {
+        return json{{"name", fact.info.name}, {"unit", fact.info.unit}};
+    });
+    return scriptSafe(root);
 }
 
 }  // namespace dustbench::bench

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "bench/measure/statistics.h"
-#include "bench/report/machines/machine_cells.h"
+#include "bench/report/machines/machine_set.h"
 #include "bench/report/median_interval.h"
 
 namespace dustbench::bench {

@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "bench/report/machines/hardware_table.h"
+#include "bench/report/machines/machine_set.h"
 #include "bench/results/compared_runs.h"
 
 namespace dustbench::bench {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/report/machines/machine_cells.h"
+#include "bench/report/machines/machine_set.h"
 
 namespace dustbench::bench {
 

@@ -4,11 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <functional>
 
 #include "bench/report/report_reader.h"
 #include "bench/results/compared_runs.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
 #include "methods/kit/files/printable.h"
+#include "methods/kit/gpu/adapter.h"
 
 namespace dustbench::bench {
 namespace {
@@ -89,6 +93,90 @@ void addSides(const ReportData& data, std::size_t folder, const std::string& lab
     }
 }
 
+using Text = std::function<std::string(const MachineSet&, const MachineSide&)>;
+
+std::string memoryOf(const MachineSide& side) {
+    const auto found = side.facts.find("ram_bytes");
+    if (found == side.facts.end()) return {};
+    std::set<std::string> sizes;
+    for (const std::string& text : found->second)
+        if (const auto bytes = files::numberOf(text)) sizes.insert(fmt::format("{:.1f} GiB", *bytes / (1LL << 30)));
+    return fmt::format("{}", fmt::join(sizes, ", "));
+}
+
+std::string rendererOf(const MachineSide& side) {
+    const std::string renderer = factOf(side, "gl_renderer");
+    return isSoftware(side) ? "software: " + renderer : renderer;
+}
+
+std::string commitOf(const MachineSide& side) {
+    std::set<std::string> commits;
+    for (const StoredRun* run : side.runs) {
+        const auto commit = run->provenance.find("git_commit"), dirty = run->provenance.find("git_dirty");
+        if (run->status != RunStatus::done || commit == run->provenance.end() || commit->second.empty()) continue;
+        const bool isDirty = dirty != run->provenance.end() && dirty->second == "true";
+        commits.insert(commit->second.substr(0, 12) + (isDirty ? " with uncommitted changes" : ""));
+    }
+    return fmt::format("{}", fmt::join(commits, ", "));
+}
+
+/// Dates of the first and the last run: `2026-03-01 10:20 to 2026-03-01 11:05 UTC`.
+std::string datesOf(const MachineSide& side) {
+    const auto found = side.facts.find("started_utc");
+    if (found == side.facts.end()) return {};
+    const auto minute = [](std::string text) {
+        text = text.substr(0, 16);
+        std::ranges::replace(text, 'T', ' ');
+        return text;
+    };
+    const std::string first = minute(*found->second.begin()), last = minute(*found->second.rbegin());
+    return first == last ? first + " UTC" : fmt::format("{} to {} UTC", first, last);
+}
+
+std::string countsOf(const MachineSide& side) {
+    const auto done = std::ranges::count(side.runs, RunStatus::done, &StoredRun::status);
+    return fmt::format("{} of {}", done, side.runs.size());
+}
+
+/// `the machine is busy (12 runs); frames stalled (3 runs)`: kinds of warnings end before their first colon.
+std::string warningsOf(const MachineSet& set, const MachineSide& side) {
+    std::vector<std::string> kinds;
+    for (const RunWarnings& warnings : set.folders[side.folder].warnings) {
+        const auto count = std::ranges::count_if(side.runs, [&](const StoredRun* run) {
+            return std::ranges::find(warnings.runs, run->runId) != warnings.runs.end();
+        });
+        if (count > 0)
+            kinds.push_back(fmt::format("{} ({} {})", warnings.warning.substr(0, warnings.warning.find(':')), count,
+                                        count == 1 ? "run" : "runs"));
+    }
+    return kinds.empty() ? "none" : fmt::format("{}", fmt::join(kinds, "; "));
+}
+
+Text field(const char* name) {
+    return [name](const MachineSet&, const MachineSide& side) { return factOf(side, name); };
+}
+
+Text of(std::string (*text)(const MachineSide&)) {
+    return [text](const MachineSet&, const MachineSide& side) { return text(side); };
+}
+
+std::string virtualText(const MachineSide& side) {
+    const std::string text = factOf(side, "virtual_machine");
+    return text == "true" ? "yes" : text == "false" ? "no" : text;
+}
+
+/// The first input that differs from those of the cell's first run, or `state_hash`; empty if none differs.
+std::string otherWorkIn(const MachineCell& cell) {
+    const StoredRun* first = nullptr;
+    for (const CellRuns& runs : cell.sides)
+        for (const StoredRun* run : runs.done) {
+            if (!first) first = run;
+            if (std::string file = differingInput(*first, *run); !file.empty()) return file;
+            if (run->stateHash != first->stateHash) return "state_hash";
+        }
+    return {};
+}
+
 }  // namespace
 
 std::string factOf(const MachineSide& side, std::string_view field) {
@@ -129,6 +217,105 @@ MachineSet readMachines(const std::vector<fs::path>& folders, const std::vector<
         read.back().folder = folder.string();
     }
     return machineSet(std::move(read), labels.empty() ? folderLabels(folders) : labels);
+}
+
+bool HardwareRow::differs() const {
+    return std::ranges::any_of(values, [this](const std::string& value) { return value != values.front(); });
+}
+
+bool isSoftware(const MachineSide& side) {
+    const auto found = side.facts.find("gl_renderer");
+    return found != side.facts.end() && std::ranges::all_of(found->second, gpu::isSoftwareRenderer);
+}
+
+bool areAlike(const MachineSide& a, const MachineSide& b) {
+    return memoryOf(a) == memoryOf(b) &&
+           std::ranges::all_of(std::array{"cpu", "cores", "gl_vendor", "gl_renderer", "virtual_machine"},
+                               [&](const char* name) { return factOf(a, name) == factOf(b, name); });
+}
+
+std::vector<HardwareRow> hardwareTable(const MachineSet& set) {
+    const std::vector<std::pair<const char*, Text>> rows{
+        {"CPU", field("cpu")},
+        {"cores", field("cores")},
+        {"memory", of(memoryOf)},
+        {"OpenGL renderer", of(rendererOf)},
+        {"OpenGL vendor", field("gl_vendor")},
+        {"OpenGL version and driver", field("gl_version")},
+        {"platform", field("gl_platform")},
+        {"kernel", field("kernel")},
+        {"governor", field("governor")},
+        {"virtual machine", of(virtualText)},
+        {"dustbench", field("version")},
+        {"commit", of(commitOf)},
+        {"compiler", field("compiler")},
+        {"flags", field("flags")},
+        {"build", field("build_type")},
+        {"measured", of(datesOf)},
+        {"runs done", of(countsOf)},
+        {"warnings", warningsOf},
+        {"folder", [](const MachineSet& all, const MachineSide& side) { return all.folders[side.folder].folder; }},
+    };
+    std::vector<HardwareRow> table;
+    for (const auto& [name, text] : rows) {
+        table.push_back({name, {}});
+        for (const MachineSide& side : set.sides) table.back().values.push_back(text(set, side));
+    }
+    return table;
+}
+
+std::size_t MachineCell::sidesDone() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(sides, [](const CellRuns& runs) { return !runs.done.empty(); }));
+}
+
+bool MachineCells::haveSomethingInCommon() const {
+    return std::ranges::any_of(cells,
+                               [](const MachineCell& cell) { return cell.otherWork.empty() && cell.sidesDone() > 1; });
+}
+
+MachineCells cellsOf(const MachineSet& set) {
+    std::map<CellIdentity, MachineCell, decltype(&identityLess)> found(&identityLess);
+    MachineCells result;
+    std::map<std::string, std::vector<const StoredRun*>> placed;  // by run id, of previous sides
+    for (std::size_t side = 0; side < set.sides.size(); ++side) {
+        std::size_t unplaced = 0, copied = 0;
+        for (const StoredRun* run : set.sides[side].runs) {
+            CellIdentity identity;
+            try {
+                identity = identityOf(*run);
+            } catch (const InputError&) {
+                ++unplaced;
+                continue;
+            }
+            MachineCell& cell = found[identity];
+            cell.identity = std::move(identity);
+            cell.sides.resize(set.sides.size());
+            std::vector<const StoredRun*>& before = placed[run->runId];
+            if (std::ranges::any_of(before,
+                                    [run](const StoredRun* other) { return areOneMeasurement(*other, *run); })) {
+                cell.sides[side].copied.push_back(run);
+                ++copied;
+                continue;
+            }
+            before.push_back(run);
+            add(cell.sides[side], *run);
+        }
+        if (copied > 0)
+            result.unplaced.push_back(fmt::format("{}: {} of {} runs were copied from another folder and are left out",
+                                                  set.sides[side].label, copied, set.sides[side].runs.size()));
+        if (unplaced > 0)
+            result.unplaced.push_back(fmt::format("{}: {} of {} runs do not record their settings (provenance.key)",
+                                                  set.sides[side].label, unplaced, set.sides[side].runs.size()));
+    }
+    std::vector<CellIdentity> identities;
+    for (auto& [identity, cell] : found) {
+        cell.otherWork = otherWorkIn(cell);
+        identities.push_back(identity);
+        result.cells.push_back(std::move(cell));
+    }
+    result.names = distinguishingNames(identities);
+    return result;
 }
 
 }  // namespace dustbench::bench

@@ -1,4 +1,5 @@
-// Reads results folders of several machines for a page that compares them.
+// Results folders of several machines, to be compared: the runs of each machine, its hardware, and the configurations
+// that the machines measured.
 //
 // The runs of a folder are split by machine (machineFields of compared_runs.h). Usually there is only one.
 // Threads: plain data.
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "bench/report/report_data.h"
+#include "bench/suite/regression/folder_cells.h"
 
 namespace dustbench::bench {
 
@@ -51,5 +53,44 @@ struct MachineSet {
 
 /// The same for folders that were already read.
 [[nodiscard]] MachineSet machineSet(std::vector<ReportData> folders, std::vector<std::string> labels);
+
+/// A row of the table of hardware, software and measurements, which has a column for each machine.
+struct HardwareRow {
+    std::string name;                 ///< `CPU`, `governor`, `warnings`
+    std::vector<std::string> values;  ///< by MachineSet::sides; empty if unknown
+    [[nodiscard]] bool differs() const;
+};
+
+[[nodiscard]] std::vector<HardwareRow> hardwareTable(const MachineSet& set);
+
+/// True if a software renderer drew every run.
+[[nodiscard]] bool isSoftware(const MachineSide& side);
+
+/// True if CPU, cores, memory and graphics are the same: one machine, or two identical ones.
+[[nodiscard]] bool areAlike(const MachineSide& a, const MachineSide& b);
+
+/// A configuration measured on several machines: all of its runs, whose settings differ only in the repetition.
+struct MachineCell {
+    CellIdentity identity;
+    std::vector<CellRuns> sides;  ///< by MachineSet::sides
+    /// An input that is not the same everywhere, or `state_hash`: different work was measured, and its times are not
+    /// shown. Empty if the work is the same.
+    std::string otherWork{};
+
+    [[nodiscard]] bool isDoneOn(std::size_t side) const { return !sides[side].done.empty(); }
+    [[nodiscard]] std::size_t sidesDone() const;
+};
+
+struct MachineCells {
+    std::vector<MachineCell> cells;     ///< sorted by identity, numbers numerically
+    std::vector<std::string> names;     ///< the fields that distinguish cells of a method
+    std::vector<std::string> unplaced;  ///< a sentence for each machine with copied runs or with runs without settings
+    [[nodiscard]] std::string labelOf(const MachineCell& cell) const { return bench::labelOf(cell.identity, names); }
+    /// True if a cell is completed on two machines with the same work.
+    [[nodiscard]] bool haveSomethingInCommon() const;
+};
+
+/// Points into the set.
+[[nodiscard]] MachineCells cellsOf(const MachineSet& set);
 
 }  // namespace dustbench::bench

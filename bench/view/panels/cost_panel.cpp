@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "bench/measure/statistics.h"
-#include "bench/view/panels/panel_widgets.h"
+#include "bench/view/panels/panel_canvas.h"
 
 namespace dustbench::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "bench/scene/world.h"
-#include "bench/view/panels/panel_target.h"
+#include "bench/view/panels/panel_canvas.h"
 #include "bench/view/panels/panels_fixture.h"
 #include "methods/kit/files/data_folder.h"
 

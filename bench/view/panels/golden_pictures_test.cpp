@@ -10,7 +10,7 @@
 
 #include "bench/measure/image/flip.h"
 #include "bench/measure/image/heat_map.h"
-#include "bench/view/panels/panel_target.h"
+#include "bench/view/panels/panel_canvas.h"
 #include "bench/view/panels/panels_fixture.h"
 #include "source_folder.h"
 

@@ -1,7 +1,8 @@
-// Draws panels with Dear ImGui into a framebuffer, from input given as plain values, so it needs no window.
+// Draws panels with Dear ImGui into a framebuffer, from input given as plain values, so it needs no window; and the
+// small widgets that the panels share.
 //
 // Units: pixels from the upper left corner. Owns: the ImGui context and its objects on the GPU; only one canvas may
-// exist at a time. Threads: the device's.
+// exist at a time. Threads: the device's; widgets within PanelCanvas::draw.
 #pragma once
 
 #include <array>
@@ -9,11 +10,14 @@
 #include <glm/glm.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/view/keys.h"
 #include "methods/kit/gpu/device.h"
 #include "methods/kit/gpu/framebuffer.h"
+#include "methods/kit/gpu/texture.h"
 
 namespace dustbench::bench {
 
@@ -72,5 +76,52 @@ class WidgetMap {
  private:
     std::map<std::string, PanelRectangle> widgets_;
 };
+
+/// The framebuffer for the panels, with the current size of the window.
+class PanelTarget {
+ public:
+    explicit PanelTarget(gpu::Device& device) : device_(device) {}
+
+    /// False for a window without an area, such as a minimised one: then there is no target.
+    bool fit(int width, int height) {
+        if (width < 1 || height < 1) return false;
+        if (width != texture_.width() || height != texture_.height()) {
+            texture_ = gpu::Texture::make2D(device_, "window", gpu::Format::rgba8, width, height);
+            framebuffer_ = gpu::Framebuffer(device_, "window", &texture_, nullptr);
+        }
+        return true;
+    }
+    /// Valid after the first fit() that returned true.
+    [[nodiscard]] gpu::Texture& texture() { return texture_; }
+    [[nodiscard]] const gpu::Framebuffer& framebuffer() const { return framebuffer_; }
+
+ private:
+    gpu::Device& device_;
+    gpu::Texture texture_;
+    gpu::Framebuffer framebuffer_;
+};
+
+// --- Widgets
+
+/// Width of the panel for the text's size, pixels.
+[[nodiscard]] float panelWidth();
+
+void showText(const std::string& line);
+/// Grey text, wrapped.
+void showRemark(const std::string& text);
+
+/// ImGui::BeginTable with a first column for names, which is twice as wide as the others.
+[[nodiscard]] bool beginTable(const char* id, int columns);
+
+/// A list of words, recorded under its label. Returns the chosen word if it differs from the current one.
+[[nodiscard]] std::optional<std::string> showList(const char* label, const std::string& now,
+                                                  const std::vector<std::string>& words, WidgetMap& widgets);
+/// ImGuiSliderFlags of every slider. They disable typing: the input field that ImGui 1.86 opens on Ctrl+click ends the
+/// program in rare sequences of input with an assertion.
+[[nodiscard]] int sliderFlags(bool logarithmic);
+/// A slider for a number, recorded under its label. Optionally logarithmic.
+bool showSlider(const char* label, float& value, float minimum, float maximum, const char* format, WidgetMap& widgets,
+                bool logarithmic = false);
+bool showSwitch(const char* label, bool& on, WidgetMap& widgets);
 
 }  // namespace dustbench::bench

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "bench/view/panels/panel_widgets.h"
+#include "bench/view/panels/panel_canvas.h"
 #include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {

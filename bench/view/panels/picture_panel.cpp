@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/view/panels/panel_widgets.h"
+#include "bench/view/panels/panel_canvas.h"
 
 namespace dustbench::bench {
 namespace {

@@ -4,10 +4,13 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "bench/view/panels/cost_panel.h"
-#include "bench/view/panels/panel_widgets.h"
+#include "bench/view/panels/panel_canvas.h"
+#include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
+#include "methods/kit/draw/read_back.h"
 #include "methods/kit/files/data_folder.h"
 
 namespace dustbench::bench {
@@ -49,6 +52,12 @@ std::string percentText(double scale) {
 std::string speedText(int slowness) {
     return slowness == 1 ? "full" : fmt::format("1/{}", slowness);
 }
+
+constexpr float fontPixels = 15;
+/// ImGui knows the size of a table only after a frame.
+constexpr int framesToSettle = 2;
+/// The ground truth is drawn when nothing has moved for a frame.
+constexpr int framesToRest = 2;
 
 }  // namespace
 
@@ -246,6 +255,24 @@ void ViewerPanels::showTextSize() {
     for (const double scale : textScales) words.push_back(percentText(scale));
     if (const auto chosen = showList("Text size", percentText(wantedScale_), words, widgets_))
         wantedScale_ = textScales.at(static_cast<std::size_t>(std::ranges::find(words, *chosen) - words.begin()));
+}
+
+pictures::Image panelPicture(const ViewState& state, const SplitSettings& split, int width, int height) {
+    gpu::Device device;
+    Viewer viewer(state, device, "view");
+    viewer.paused = true;
+    if (state.b) viewer.split = split;
+    viewer.split.channel = split.channel;
+    viewer.advance(std::numeric_limits<double>::infinity());
+    for (int n = 0; n < framesToRest; ++n) viewer.advance();
+    if (!viewer.message().empty()) throw InputError("view: " + viewer.message());
+    ViewerPanels panels(device, fontPixels);
+    const gpu::Texture texture = gpu::Texture::make2D(device, "window", gpu::Format::rgba8, width, height);
+    const gpu::Framebuffer target(device, "window", &texture, nullptr);
+    for (int n = 0; n < framesToSettle; ++n) panels.draw(viewer, target, width, height, {});
+    pictures::Image picture = pictures::decoded(draw::readBack(texture));
+    for (glm::vec4& pixel : picture.pixels) pixel.a = 1;
+    return picture;
 }
 
 }  // namespace dustbench::bench

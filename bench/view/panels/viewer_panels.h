@@ -6,6 +6,8 @@
 #include "bench/view/panels/panel_canvas.h"
 #include "bench/view/panels/parameter_panel.h"
 #include "bench/view/panels/picture_panel.h"
+#include "bench/view/split_view.h"
+#include "bench/view/view_state.h"
 #include "bench/view/viewer.h"
 #include "methods/kit/pictures/image.h"
 
@@ -51,5 +53,9 @@ class ViewerPanels {
     PicturePanel picture_;
     bool walks_ = false;
 };
+
+/// Draws one frame of the whole window without a window, `width` × `height`, at the state's frame. Linear light. Throws
+/// InputError for a state that cannot be shown, or without OpenGL.
+[[nodiscard]] pictures::Image panelPicture(const ViewState& state, const SplitSettings& split, int width, int height);
 
 }  // namespace dustbench::bench

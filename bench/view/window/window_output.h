@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "bench/view/panels/panel_target.h"
+#include "bench/view/panels/panel_canvas.h"
 #include "methods/kit/gpu/current_context.h"
 #include "methods/kit/gpu/device.h"
 

@@ -1,9 +1,9 @@
 // Builds the page of several machines from the data in it.
 //
-// The data (bench/report/machines/machines_json.cpp): machines, each a line of the charts, and folders, each with claims; hardware, rows of
-// [values by machine]; remarks: apart, programs, notes, and missing configurations; experiments with axes, variants, worlds (a value for each
-// axis), ratios of variants (by world and all together, a side for each machine) and values of each machine; claims, with a result for each
-// folder; papers; facts, the columns that methods declare.
+// The data (bench/report/machines/machine_comparison.cpp): machines, each a line of the charts, and folders, each with claims; hardware,
+// rows of [values by machine]; remarks: apart, programs, notes, and missing configurations; experiments with axes, variants, worlds (a
+// value for each axis), ratios of variants (by world and all together, a side for each machine) and values of each machine; claims, with a
+// result for each folder; papers; facts, the columns that methods declare.
 (() => {
     const read = id => JSON.parse(document.getElementById(id).textContent);
     const report = { data: read('report-data'), columns: read('report-columns'), specifications: read('report-charts') };

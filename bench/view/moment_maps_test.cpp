@@ -1,4 +1,4 @@
-#include "bench/view/outlines.h"
+#include "bench/view/moment_maps.h"
 
 #include <gtest/gtest.h>
 
