@@ -10,10 +10,8 @@
 
 #include "bench/cli/commands.h"
 #include "bench/cli/text_table.h"
-#include "bench/measure/image/flip.h"
 #include "bench/measure/image/heat_map.h"
 #include "bench/measure/image/picture_error.h"
-#include "bench/measure/image/ssim.h"
 #include "bench/measure/provenance.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/input_log.h"

@@ -12,7 +12,7 @@
 #include "bench/run/harness_cost.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/gpu/egl_context.h"
-#include "methods/kit/gpu/timer_query.h"
+#include "methods/kit/gpu/queue_marks.h"
 
 namespace dustbench::cli {
 namespace {

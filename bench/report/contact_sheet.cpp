@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "bench/measure/image/heat_map.h"
-#include "bench/measure/image/image_check.h"
+#include "bench/measure/image/picture.h"
 #include "bench/measure/image/resampled.h"
 #include "bench/report/page.h"
 #include "bench/report/picture_sets.h"

@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "bench/export/whole_file.h"
-#include "bench/measure/image/flip.h"
 #include "bench/measure/image/heat_map.h"
+#include "bench/measure/image/picture_error.h"
 #include "bench/report/drawing_program.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"

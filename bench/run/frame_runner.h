@@ -18,8 +18,7 @@
 #include "bench/scene/world.h"
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/device.h"
-#include "methods/kit/gpu/fence.h"
-#include "methods/kit/gpu/timer_query.h"
+#include "methods/kit/gpu/queue_marks.h"
 
 namespace dustbench::bench {
 

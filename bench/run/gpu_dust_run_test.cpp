@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bench/measure/image/flip.h"
+#include "bench/measure/image/picture_error.h"
 #include "bench/run/dust_place.h"
 #include "bench/run/frame_runner.h"
 #include "bench/run/measured_run.h"

@@ -12,7 +12,7 @@
 #include "bench/results/run_record.h"
 #include "bench/scene/world.h"
 #include "methods/contract/method.h"
-#include "methods/kit/draw/composite.h"
+#include "methods/kit/draw/layer_blend.h"
 #include "methods/kit/draw/opaque_scene.h"
 #include "methods/kit/gpu/device.h"
 #include "methods/kit/gpu/layer.h"

@@ -8,7 +8,7 @@
 
 #include "bench/scene/solid_path.h"
 #include "methods/contract/scene.h"
-#include "methods/kit/meshes/morph_mesh.h"
+#include "methods/kit/meshes/mesh_file.h"
 
 namespace dustbench::bench {
 

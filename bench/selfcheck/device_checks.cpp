@@ -17,8 +17,8 @@
 #include "methods/kit/gpu/draw_call.h"
 #include "methods/kit/gpu/framebuffer.h"
 #include "methods/kit/gpu/program.h"
+#include "methods/kit/gpu/queue_marks.h"
 #include "methods/kit/gpu/texture.h"
-#include "methods/kit/gpu/timer_query.h"
 #include "methods/kit/gpu/vertex_array.h"
 
 namespace dustbench::bench {

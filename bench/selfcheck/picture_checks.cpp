@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <set>
 
-#include "bench/measure/image/flip.h"
 #include "bench/measure/image/heat_map.h"
 #include "bench/measure/image/picture.h"
+#include "bench/measure/image/picture_error.h"
 #include "bench/results/temporary_folder.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"

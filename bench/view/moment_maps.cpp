@@ -8,10 +8,10 @@
 
 #include "bench/export/collected_volume.h"
 #include "bench/measure/clock.h"
-#include "bench/measure/image/flip.h"
+#include "bench/measure/image/flaw_metrics.h"
 #include "bench/measure/image/heat_map.h"
-#include "bench/measure/image/image_check.h"
-#include "bench/measure/image/quads_per_pixel.h"
+#include "bench/measure/image/picture.h"
+#include "bench/measure/image/picture_error.h"
 #include "bench/reference/camera_rays.h"
 #include "bench/reference/judge/moment_pictures.h"
 #include "bench/view/split_view.h"

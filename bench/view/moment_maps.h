@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "bench/export/collected_volume.h"
-#include "bench/measure/image/plane.h"
+#include "bench/measure/image/picture.h"
 #include "bench/view/view_session.h"
 #include "methods/contract/view.h"
 #include "methods/kit/gpu/texture.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "bench/measure/image/quads_per_pixel.h"
+#include "bench/measure/image/flaw_metrics.h"
 #include "bench/reference/camera_rays.h"
 #include "bench/reference/judge/moment_pictures.h"
 #include "methods/kit/particles/particle_store.h"

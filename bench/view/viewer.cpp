@@ -10,7 +10,7 @@
 #include "bench/view/free_camera.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/whole_text.h"
-#include "methods/kit/gpu/current_context.h"
+#include "methods/kit/gpu/egl_context.h"
 
 namespace dustbench::bench {
 namespace {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <random>
 
-#include "bench/measure/image/flip.h"
+#include "bench/measure/image/flaw_metrics.h"
 #include "bench/measure/image/heat_map.h"
-#include "bench/measure/image/quads_per_pixel.h"
+#include "bench/measure/image/picture_error.h"
 #include "bench/reference/judge/moment_pictures.h"
 #include "bench/view/viewer.h"
 #include "methods/contract/registry.h"

@@ -21,7 +21,7 @@
 
 #include "methods/billboard/billboard.h"
 #include "methods/kit/draw/test_canvas.h"
-#include "methods/kit/gpu/timer_query.h"
+#include "methods/kit/gpu/queue_marks.h"
 
 namespace dustbench::billboard {
 namespace {

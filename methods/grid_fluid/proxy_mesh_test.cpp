@@ -7,7 +7,7 @@
 
 #include "methods/grid_fluid/fluid_solids.h"
 #include "methods/grid_fluid/test_bodies.h"
-#include "methods/kit/meshes/open_edges.h"
+#include "methods/kit/meshes/mesh_file.h"
 
 namespace dustbench::grid_fluid {
 namespace {

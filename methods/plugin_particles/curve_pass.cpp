@@ -1,5 +1,5 @@
 // Curves through the positions of the last steps.
-#include "methods/kit/draw/curves.h"
+#include "methods/kit/draw/points.h"
 #include "methods/plugin_particles/last_positions.h"
 #include "methods/plugin_particles/shape_pass.h"
 

@@ -9,7 +9,6 @@
 #include <random>
 #include <stdexcept>
 
-#include "methods/kit/draw/lines.h"
 #include "methods/kit/draw/points.h"
 #include "methods/kit/particles/part_table.h"
 #include "methods/kit/testing/test_moment.h"

@@ -1,5 +1,4 @@
 // Points, lines, and both together.
-#include "methods/kit/draw/lines.h"
 #include "methods/kit/draw/points.h"
 #include "methods/plugin_particles/shape_pass.h"
 

@@ -12,7 +12,7 @@
 #include "methods/contract/method.h"
 #include "methods/kit/draw/billboards.h"
 #include "methods/kit/draw/depth_sort.h"
-#include "methods/kit/draw/dust_shadow.h"
+#include "methods/kit/draw/shadow_map.h"
 #include "methods/kit/particles/particle_store.h"
 #include "methods/relief/drawing/relief_pass.h"
 #include "methods/relief/living_relief.h"

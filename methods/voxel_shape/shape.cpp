@@ -7,7 +7,6 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/matching_files.h"
 #include "methods/kit/meshes/mesh_file.h"
-#include "methods/kit/meshes/open_edges.h"
 #include "methods/voxel_shape/voxels/solid_fill.h"
 
 namespace dustbench::voxel_shape {

@@ -12,7 +12,6 @@
 
 #include "methods/kit/draw/billboards.h"
 #include "methods/kit/draw/depth_sort.h"
-#include "methods/kit/draw/lines.h"
 #include "methods/kit/draw/points.h"
 #include "methods/voxel_shape/living_shape.h"
 #include "methods/voxel_shape/particles/shape_particles.h"

@@ -1,10 +1,10 @@
-#include "bench/measure/image/banding.h"
+#include "bench/measure/image/masked_error.h"
 
 #include <array>
 #include <cmath>
 
-#include "bench/measure/image/image_check.h"
 #include "bench/measure/image/metric.h"
+#include "bench/measure/image/picture.h"
 #include "bench/measure/image/separable_filter.h"
 
 namespace dustbench::bench {

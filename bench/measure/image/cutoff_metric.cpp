@@ -1,10 +1,9 @@
-#include "bench/measure/image/cutoff.h"
+#include "bench/measure/image/flaw_metrics.h"
 
 #include <cmath>
 
-#include "bench/measure/image/dust_alpha.h"
-#include "bench/measure/image/image_check.h"
 #include "bench/measure/image/metric.h"
+#include "bench/measure/image/picture.h"
 
 namespace dustbench::bench {
 

@@ -1,16 +1,13 @@
 // The flaw metrics in cases whose value can be computed by hand.
+#include "bench/measure/image/flaw_metrics.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "bench/measure/image/cutoff.h"
 #include "bench/measure/image/popping.h"
-#include "bench/measure/image/popping_sizes.h"
-#include "bench/measure/image/quads_per_pixel.h"
-#include "bench/measure/image/self_similarity.h"
 #include "bench/measure/image/test_images.h"
 #include "bench/measure/image/test_splatter.h"
-#include "bench/measure/image/trail_gaps.h"
 #include "bench/measure/image/volume_error.h"
 
 namespace dustbench::bench {

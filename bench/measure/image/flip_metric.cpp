@@ -1,4 +1,4 @@
-#include "bench/measure/image/flip.h"
+#include "bench/measure/image/picture_error.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 
 #include <glm/glm.hpp>
 
-#include "bench/measure/image/plane.h"
+#include "bench/measure/image/picture.h"
 #include "methods/kit/pictures/image.h"
 
 namespace dustbench::bench {

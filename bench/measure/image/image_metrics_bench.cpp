@@ -1,15 +1,10 @@
 // Cost of all image metrics for one frame: 640×480, two pictures of dust. Target: 0.5 s on two cores.
 #include <benchmark/benchmark.h>
 
-#include "bench/measure/image/cutoff.h"
-#include "bench/measure/image/flip.h"
+#include "bench/measure/image/flaw_metrics.h"
 #include "bench/measure/image/picture_error.h"
 #include "bench/measure/image/popping.h"
-#include "bench/measure/image/quads_per_pixel.h"
-#include "bench/measure/image/self_similarity.h"
-#include "bench/measure/image/ssim.h"
 #include "bench/measure/image/test_splatter.h"
-#include "bench/measure/image/trail_gaps.h"
 
 namespace dustbench::bench {
 namespace {

@@ -18,7 +18,6 @@
 
 #include "bench/measure/image/masked_error.h"
 #include "bench/measure/image/popping.h"
-#include "bench/measure/image/popping_sizes.h"
 #include "bench/measure/image/volume_error.h"
 
 namespace dustbench::bench {

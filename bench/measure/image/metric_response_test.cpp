@@ -10,11 +10,10 @@
 #include <set>
 #include <sstream>
 
-#include "bench/measure/image/flip.h"
+#include "bench/measure/image/flaw_metrics.h"
 #include "bench/measure/image/metric.h"
-#include "bench/measure/image/self_similarity.h"
+#include "bench/measure/image/picture_error.h"
 #include "bench/measure/image/test_splatter.h"
-#include "bench/measure/image/trail_gaps.h"
 #include "source_folder.h"
 
 namespace dustbench::bench {

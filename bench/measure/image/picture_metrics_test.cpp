@@ -6,11 +6,9 @@
 #include <numeric>
 
 #include "bench/measure/image/colour_spaces.h"
-#include "bench/measure/image/flip.h"
 #include "bench/measure/image/heat_map.h"
 #include "bench/measure/image/picture_error.h"
 #include "bench/measure/image/separable_filter.h"
-#include "bench/measure/image/ssim.h"
 #include "bench/measure/image/test_images.h"
 
 namespace dustbench::bench {

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/measure/image/dust_alpha.h"
-#include "bench/measure/image/image_check.h"
 #include "bench/measure/image/metric.h"
+#include "bench/measure/image/picture.h"
 
 namespace dustbench::bench {
 namespace {

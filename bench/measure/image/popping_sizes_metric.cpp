@@ -1,4 +1,4 @@
-#include "bench/measure/image/popping_sizes.h"
+#include "bench/measure/image/popping.h"
 
 #include <algorithm>
 #include <cmath>

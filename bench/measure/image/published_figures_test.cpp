@@ -12,9 +12,7 @@
 //   25, mean of the map, and the map at two pixels.
 #include <gtest/gtest.h>
 
-#include "bench/measure/image/flip.h"
 #include "bench/measure/image/picture_error.h"
-#include "bench/measure/image/ssim.h"
 #include "bench/measure/image/test_images.h"
 
 namespace dustbench::bench {

@@ -1,10 +1,10 @@
-#include "bench/measure/image/quads_per_pixel.h"
+#include "bench/measure/image/flaw_metrics.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "bench/measure/image/dust_alpha.h"
 #include "bench/measure/image/metric.h"
+#include "bench/measure/image/picture.h"
 
 namespace dustbench::bench {
 namespace {

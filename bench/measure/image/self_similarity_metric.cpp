@@ -1,12 +1,12 @@
-#include "bench/measure/image/self_similarity.h"
+#include "bench/measure/image/flaw_metrics.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "bench/measure/image/image_check.h"
 #include "bench/measure/image/metric.h"
+#include "bench/measure/image/picture.h"
 #include "methods/kit/maths/philox.h"
 
 namespace dustbench::bench {

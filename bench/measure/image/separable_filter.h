@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "bench/measure/image/plane.h"
+#include "bench/measure/image/picture.h"
 
 namespace dustbench::bench {
 

@@ -1,4 +1,4 @@
-#include "bench/measure/image/ssim.h"
+#include "bench/measure/image/picture_error.h"
 
 #include <numeric>
 

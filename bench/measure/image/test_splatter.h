@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "bench/measure/image/picture.h"
-#include "bench/measure/image/screen_primitive.h"
 #include "methods/kit/maths/philox.h"
 
 namespace dustbench::bench {

@@ -1,9 +1,9 @@
-#include "bench/measure/image/trail_gaps.h"
+#include "bench/measure/image/flaw_metrics.h"
 
 #include <algorithm>
 
-#include "bench/measure/image/image_check.h"
 #include "bench/measure/image/metric.h"
+#include "bench/measure/image/picture.h"
 
 namespace dustbench::bench {
 namespace {

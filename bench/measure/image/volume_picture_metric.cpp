@@ -1,10 +1,10 @@
-#include "bench/measure/image/volume_picture.h"
+#include "bench/measure/image/volume_error.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "bench/measure/image/image_check.h"
 #include "bench/measure/image/metric.h"
+#include "bench/measure/image/picture.h"
 
 namespace dustbench::bench {
 

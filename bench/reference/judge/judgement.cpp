@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/measure/image/volume_picture.h"
+#include "bench/measure/image/volume_error.h"
 #include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {

@@ -22,7 +22,7 @@ struct RunMetrics {
 /// identical. Metrics that are never defined are omitted.
 [[nodiscard]] std::vector<std::pair<std::string, double>> summaryOf(const RunMetrics& runMetrics);
 
-/// A warning if the mean of `volume_picture` (bench/measure/image/volume_picture.h) shows that the method draws other
+/// A warning if the mean of `volume_picture` (bench/measure/image/volume_error.h) shows that the method draws other
 /// volumes than it reports; else empty.
 [[nodiscard]] std::string volumeWarning(const RunMetrics& runMetrics);
 

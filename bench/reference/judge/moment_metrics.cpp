@@ -1,8 +1,8 @@
 #include "bench/reference/judge/moment_metrics.h"
 
 #include "bench/export/extinction_grid.h"
-#include "bench/measure/image/flip.h"
-#include "bench/measure/image/image_check.h"
+#include "bench/measure/image/picture.h"
+#include "bench/measure/image/picture_error.h"
 #include "bench/reference/judge/reported_depths.h"
 
 namespace dustbench::bench {

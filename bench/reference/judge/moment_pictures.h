@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bench/export/collected_volume.h"
-#include "bench/measure/image/popping_sizes.h"
-#include "bench/measure/image/screen_primitive.h"
+#include "bench/measure/image/picture.h"
+#include "bench/measure/image/popping.h"
 #include "bench/reference/particle_image.h"
 #include "bench/reference/reference_store.h"
 #include "methods/contract/scene.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/export/collected_volume.h"
-#include "bench/measure/image/plane.h"
+#include "bench/measure/image/picture.h"
 #include "bench/reference/opaque_distances.h"
 #include "methods/contract/view.h"
 

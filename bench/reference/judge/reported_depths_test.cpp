@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "bench/measure/image/volume_picture.h"
+#include "bench/measure/image/volume_error.h"
 #include "bench/reference/particle_image.h"
 #include "bench/reference/test_clouds.h"
 

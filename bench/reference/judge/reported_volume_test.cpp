@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/measure/image/volume_picture.h"
+#include "bench/measure/image/volume_error.h"
 #include "bench/reference/judge/judgement.h"
 #include "bench/reference/particle_image.h"
 #include "bench/reference/test_clouds.h"

@@ -1,5 +1,7 @@
 // Benchmarks far-to-near order of (depth, index): this sort and common alternatives, on the same points in the same
 // run.
+#include "methods/kit/draw/depth_sort.h"
+
 #include <benchmark/benchmark.h>
 #include <oneapi/tbb/parallel_sort.h>
 #include <oneapi/tbb/task_arena.h>
@@ -10,8 +12,6 @@
 #include <cstring>
 #include <random>
 #include <vector>
-
-#include "methods/kit/draw/depth_sort.h"
 
 namespace dustbench::draw {
 namespace {

@@ -10,7 +10,6 @@
 #include "methods/contract/volume.h"
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/program.h"
-#include "methods/kit/gpu/sort/depth_keys.h"
 #include "methods/kit/gpu/sort/radix_sort.h"
 
 namespace dustbench::draw {

@@ -1,14 +1,16 @@
-// Blends pictures that were drawn into separate buffers into a method's layer.
+// Puts layers over one another: pictures that were drawn into separate buffers into a method's layer, and the layer
+// over the opaque scene.
 //
 // Additive light has no alpha: premultiplied, it is (C, 0), so the scene behind it remains visible. If it is added
 // directly to a layer, it is clamped only when the frame is displayed, together with the scene, so bright ground hides
 // it sooner than dark ground. Drawn into a separate buffer and clamped to 1 there, as in the thesis, it is the same
 // light over any scene. Source: Thesis, 4.1.1 (separate buffer, clamped), 4.1.6 (accumulation), 4.1.8 (two eyes). Owns:
-// its program. Threads: the OpenGL thread. Colours: premultiplied, linear RGB.
+// programs. Threads: the OpenGL thread. Colours: premultiplied, linear RGB.
 #pragma once
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 
 #include "methods/kit/gpu/device.h"
@@ -56,6 +58,27 @@ class DUSTBENCH_API OwnLayer {
     gpu::Device* device_;
     std::optional<gpu::Layer> layer_;
     std::uint32_t depthName_ = 0;
+};
+
+/// Composites a method's layer over the opaque scene and encodes the result for display: the last step of a frame.
+class DUSTBENCH_API Composite {
+ public:
+    Composite(gpu::Device& device, int width, int height);
+    ~Composite();
+    Composite(const Composite&) = delete;
+    Composite& operator=(const Composite&) = delete;
+
+    /// result() has this size from now on.
+    void resize(int width, int height);
+
+    /// sRGB( layer + (1 − α_layer)·scene ) into result().
+    void draw(const gpu::Texture& scene, const gpu::Texture& layer);
+
+    [[nodiscard]] const gpu::Texture& result() const;  ///< RGBA8, display-encoded
+
+ private:
+    struct State;
+    std::unique_ptr<State> state_;
 };
 
 }  // namespace dustbench::draw

@@ -1,4 +1,4 @@
-// Fraction of the sun's light that reaches a point through the dust; see dust_shadow.h.
+// Fraction of the sun's light that reaches a point through the dust; see shadow_map.h.
 #ifdef DUST
 layout(binding = 5) uniform sampler2D dustColumns;
 

@@ -1,5 +1,5 @@
-// The uniforms of one frame that all shaders of the opaque scene share: view, lights and shadows. Laid out as the
-// uniform block of opaque_moment.glsl (std140).
+// What all shaders of the opaque scene share: the uniforms of one frame (view, lights and shadows), laid out as the
+// uniform block of opaque_moment.glsl (std140), and the preprocessor definitions.
 //
 // Frame: `eye` positions use the world's axes, relative to the camera's eye, so that floats stay precise far from the
 // world's origin.
@@ -7,6 +7,10 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <map>
+#include <string>
+
+#include "methods/kit/draw/shadow_map.h"
 
 namespace dustbench::draw {
 
@@ -38,5 +42,13 @@ struct OpaqueLamps {
     glm::ivec4 count{0};  ///< x
     std::array<Lamp, maximumLamps> lamps;
 };
+
+/// VEHICLE and SOLIDS if the scene has such shadow casters; DUST if dust casts a shadow; LAMPS with lamps.
+[[nodiscard]] inline std::map<std::string, std::string> opaqueDefinitions(const scene::Scene& scene, bool lamps) {
+    std::map<std::string, std::string> result = shadowCasters(scene);
+    if (scene.lights.onDust) result.emplace("DUST", "1");
+    if (lamps) result.insert({{"LAMPS", "1"}, {"MAXIMUM_LAMPS", std::to_string(maximumLamps)}});
+    return result;
+}
 
 }  // namespace dustbench::draw

@@ -10,12 +10,11 @@
 #include <vector>
 
 #include "draw_shaders.h"
-#include "methods/kit/draw/dust_shadow.h"
 #include "methods/kit/draw/ground_pass.h"
-#include "methods/kit/draw/opaque_definitions.h"
+#include "methods/kit/draw/opaque_moment.h"
 #include "methods/kit/draw/panel_pass.h"
 #include "methods/kit/draw/placed_solids.h"
-#include "methods/kit/draw/shadow_footprint.h"
+#include "methods/kit/draw/shadow_map.h"
 #include "methods/kit/gpu/draw_call.h"
 #include "methods/kit/gpu/framebuffer.h"
 

@@ -3,12 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
 #include <cmath>
 #include <vector>
 
 #include "methods/kit/draw/billboards.h"
-#include "methods/kit/draw/lines.h"
 #include "methods/kit/draw/test_canvas.h"
 
 namespace dustbench::draw {

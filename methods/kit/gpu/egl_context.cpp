@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <stdexcept>
 
 #include "methods/contract/errors.h"
 
@@ -161,6 +162,21 @@ std::vector<Adapter> listAdapters() {
     const CurrentContextKept kept;
     for (Adapter& adapter : adapters) (void)EglContext::open(adapter);
     return adapters;
+}
+
+CurrentContext::CurrentContext()
+    : display_(eglGetCurrentDisplay()),
+      drawn_(eglGetCurrentSurface(EGL_DRAW)),
+      read_(eglGetCurrentSurface(EGL_READ)),
+      context_(eglGetCurrentContext()) {}
+
+void CurrentContext::makeCurrent() const {
+    if (!eglMakeCurrent(display_, drawn_, read_, context_))
+        throw std::runtime_error("EGL: cannot make an OpenGL context current again");
+}
+
+bool isContextLost() {
+    return glGetGraphicsResetStatus() != GL_NO_ERROR;
 }
 
 }  // namespace dustbench::gpu

@@ -12,11 +12,10 @@
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/debug_output.h"
 #include "methods/kit/gpu/draw_call.h"
-#include "methods/kit/gpu/fence.h"
 #include "methods/kit/gpu/layer.h"
 #include "methods/kit/gpu/program.h"
+#include "methods/kit/gpu/queue_marks.h"
 #include "methods/kit/gpu/texture.h"
-#include "methods/kit/gpu/timer_query.h"
 
 namespace dustbench::gpu {
 namespace {

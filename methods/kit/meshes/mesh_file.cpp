@@ -17,17 +17,18 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/input_log.h"
 #include "methods/kit/files/whole_text.h"
 #include "methods/kit/maths/srgb.h"
-#include "methods/kit/meshes/obj_file.h"
-#include "methods/kit/meshes/ply_file.h"
 #include "methods/kit/meshes/polygons.h"
-#include "methods/kit/meshes/stl_file.h"
 
 namespace dustbench::meshes {
 namespace {
@@ -214,6 +215,18 @@ void requireSamePolygons(const Polygons& rest, const std::filesystem::path& rest
                                          targetFile.string(), face + 1, restFile.string()));
 }
 
+/// Vertex normals: the mean of the surrounding triangles, weighted by area.
+void computeNormals(scene::Mesh& mesh) {
+    std::vector<glm::vec3> sums(mesh.positions.size(), glm::vec3(0));
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
+        const glm::vec3 area = glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+        for (const std::uint32_t corner : {a, b, c}) sums[corner] += area;
+    }
+    for (std::size_t v = 0; v < sums.size(); ++v)
+        if (const float length = glm::length(sums[v]); length > 0) mesh.normals[v] = sums[v] / length;
+}
+
 }  // namespace
 
 scene::Mesh readMesh(const std::filesystem::path& file, const glm::vec3& colour) {
@@ -234,6 +247,51 @@ MorphMesh readMorphMesh(const std::filesystem::path& file, std::span<const std::
         for (const std::size_t point : points) offsets.push_back(target.positions[point] - rest.positions[point]);
     }
     return morph;
+}
+
+scene::DeformedMesh deformed(const MorphMesh& morph, std::span<const double> weights,
+                             std::span<const double> weightsPerSecond) {
+    if (weights.size() != morph.offsets.size() || weightsPerSecond.size() != morph.offsets.size())
+        throw std::invalid_argument("deformed: expected a weight and its rate for each target");
+    scene::DeformedMesh result{morph.rest, std::vector<glm::vec3>(morph.rest.positions.size(), glm::vec3(0))};
+    for (std::size_t t = 0; t < weights.size(); ++t) {
+        const auto weight = static_cast<float>(weights[t]), perSecond = static_cast<float>(weightsPerSecond[t]);
+        for (std::size_t v = 0; v < result.velocities.size(); ++v) {
+            result.mesh.positions[v] += weight * morph.offsets[t][v];
+            result.velocities[v] += perSecond * morph.offsets[t][v];
+        }
+    }
+    computeNormals(result.mesh);
+    return result;
+}
+
+std::size_t openEdges(const scene::Mesh& mesh) {
+    // Corners at the same position get the same number: their rank among all positions.
+    const auto less = [](const glm::vec3& a, const glm::vec3& b) {
+        return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
+    };
+    std::vector<glm::vec3> places(mesh.positions);
+    std::sort(places.begin(), places.end(), less);
+    std::vector<std::pair<std::ptrdiff_t, std::ptrdiff_t>> edges;
+    edges.reserve(mesh.indices.size());
+    const auto rank = [&](std::size_t corner) {
+        return std::lower_bound(places.begin(), places.end(), mesh.positions[mesh.indices[corner]], less) -
+               places.begin();
+    };
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::ptrdiff_t a = rank(i + k), b = rank(i + (k + 1) % 3);
+            if (a != b) edges.emplace_back(std::min(a, b), std::max(a, b));
+        }
+    std::sort(edges.begin(), edges.end());
+    std::size_t open = 0;
+    for (std::size_t i = 0; i < edges.size();) {
+        std::size_t same = i;
+        while (same < edges.size() && edges[same] == edges[i]) ++same;
+        open += (same - i) % 2;
+        i = same;
+    }
+    return open;
 }
 
 }  // namespace dustbench::meshes

@@ -14,9 +14,7 @@
 #include "methods/kit/files/input_log.h"
 #include "methods/kit/files/whole_text.h"
 #include "methods/kit/maths/srgb.h"
-#include "methods/kit/meshes/obj_file.h"
-#include "methods/kit/meshes/ply_file.h"
-#include "methods/kit/meshes/stl_file.h"
+#include "methods/kit/meshes/polygons.h"
 #include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::meshes {

@@ -1,4 +1,4 @@
-#include "methods/kit/meshes/ply_file.h"
+#include "methods/kit/meshes/polygons.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "methods/kit/meshes/stl_file.h"
+#include "methods/kit/meshes/polygons.h"
 
 #include <fmt/format.h>
 

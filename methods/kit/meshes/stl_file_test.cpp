@@ -1,4 +1,4 @@
-#include "methods/kit/meshes/stl_file.h"
+#include "methods/kit/meshes/polygons.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,6 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/meshes/mesh_file.h"
-#include "methods/kit/meshes/open_edges.h"
 
 namespace dustbench::particles {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "methods/kit/pictures/picture_files.h"
-#include "methods/kit/pictures/picture_limits.h"
+#include "methods/kit/pictures/picture_library.h"
 #include "methods/kit/testing/test_input_error.h"
 
 namespace dustbench::pictures {

@@ -7,7 +7,7 @@
 
 #include "methods/kit/files/whole_text.h"
 #include "methods/kit/pictures/picture_files.h"
-#include "methods/kit/pictures/picture_limits.h"
+#include "methods/kit/pictures/picture_library.h"
 
 namespace dustbench::pictures {
 namespace {

@@ -13,7 +13,6 @@
 
 #include "methods/contract/choices.h"
 #include "methods/contract/scene.h"
-#include "methods/kit/draw/dust_shadow.h"
 #include "methods/kit/draw/shadow_map.h"
 #include "methods/kit/draw/solid_mesh.h"
 #include "methods/kit/gpu/buffer.h"

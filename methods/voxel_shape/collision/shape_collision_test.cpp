@@ -6,7 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-#include "methods/kit/meshes/open_edges.h"
+#include "methods/kit/meshes/mesh_file.h"
 #include "methods/kit/meshes/triangle_tree.h"
 #include "methods/voxel_shape/collision/solid_places.h"
 #include "methods/voxel_shape/particles/shape_system.h"

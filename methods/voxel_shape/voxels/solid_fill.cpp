@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "methods/contract/errors.h"
-#include "methods/kit/meshes/open_edges.h"
+#include "methods/kit/meshes/mesh_file.h"
 
 namespace dustbench::voxel_shape {
 namespace {

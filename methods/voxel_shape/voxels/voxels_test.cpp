@@ -7,7 +7,6 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/gpu/device.h"
 #include "methods/kit/meshes/mesh_file.h"
-#include "methods/kit/meshes/open_edges.h"
 #include "methods/kit/testing/test_input_error.h"
 #include "methods/voxel_shape/voxels/slice_pass.h"
 #include "methods/voxel_shape/voxels/solid_fill.h"

@@ -12,9 +12,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 #include "methods/kit/files/toml_reader.h"
-#include "methods/kit/meshes/obj_file.h"
-#include "methods/kit/meshes/ply_file.h"
-#include "methods/kit/meshes/stl_file.h"
+#include "methods/kit/meshes/polygons.h"
 #include "methods/kit/volumes/vti_file.h"
 
 namespace dustbench::fuzz {

@@ -15,6 +15,8 @@ namespace {
 
 using namespace gpu_sort_shaders;
 
+constexpr std::uint32_t depthTile = 2048;
+
 constexpr int places = 4, bitsOfDigit = 8;
 constexpr std::uint32_t values = 256, groupThreads = 256, maximumKeysPerThread = 24;
 constexpr std::size_t wordBytes = sizeof(std::uint32_t);
@@ -43,6 +45,23 @@ Program digitProgram(Device& device, const RadixSortSettings& settings, const Sh
 }
 
 }  // namespace
+
+DepthKeys::DepthKeys(Device& device, std::uint32_t capacity)
+    : plan_(device, capacity, depthTile),
+      program_(device, "depth keys",
+               {gpu_sort_shaders::group_glsl, gpu_sort_shaders::sortable_glsl, gpu_sort_shaders::depth_keys_comp},
+               {{"TILE_ELEMENTS", std::to_string(depthTile) + "u"}}) {}
+
+void DepthKeys::write(const Buffer& depths, const ElementCount& count, DepthOrder order, Buffer& keys,
+                      Buffer& indices) {
+    plan_.set(count);
+    plan_.bind();
+    depths.bindStorage(1);
+    keys.bindStorage(2);
+    indices.bindStorage(3);
+    program_.set("backToFront", order == DepthOrder::backToFront ? 1 : 0);
+    plan_.runPerTile(program_);
+}
 
 RadixSort::RadixSort(Device& device, std::uint32_t capacity, RadixSortSettings settings)
     : settings_(settled(device, settings)),

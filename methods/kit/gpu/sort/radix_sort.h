@@ -1,4 +1,5 @@
-// Stable radix sort of pairs of a 32-bit key and a 32-bit index on the GPU, by ascending key.
+// Stable radix sort of pairs of a 32-bit key and a 32-bit index on the GPU, by ascending key, and keys by which it
+// orders depths.
 //
 // Four passes over digits of 8 bits, the least significant first; two for keys of 16 bits. Each pass counts the values
 // of its digit and moves every pair to its place. A place depends on the counts of all earlier tiles of pairs, which
@@ -8,12 +9,35 @@
 // Source: AdinetsMerrill2022; MerrillGarland2016.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "methods/contract/choices.h"
 #include "methods/kit/gpu/sort/tile_plan.h"
 
 namespace dustbench::gpu {
+
+/// Orders like the floats, except NaN; both zeros have one key. Equals the function of sortable.glsl.
+[[nodiscard]] constexpr std::uint32_t sortableKey(float value) {
+    constexpr std::uint32_t sign = 0x80000000;
+    const auto bits = std::bit_cast<std::uint32_t>(value == 0 ? 0.0f : value);
+    return (bits & sign) != 0 ? ~bits : bits | sign;
+}
+
+enum class DepthOrder { frontToBack, backToFront };
+
+/// Keys of depths, front to back or back to front. Equal depths keep the order of their indices in both directions.
+class DUSTBENCH_API DepthKeys {
+ public:
+    DepthKeys(Device& device, std::uint32_t capacity);
+
+    /// Writes a key for each depth, and the indices 0, 1, 2 …
+    void write(const Buffer& depths, const ElementCount& count, DepthOrder order, Buffer& keys, Buffer& indices);
+
+ private:
+    TilePlan plan_;
+    Program program_;
+};
 
 /// How a tile learns the counts of the tiles before it.
 enum class EarlierTiles {

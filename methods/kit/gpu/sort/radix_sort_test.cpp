@@ -1,4 +1,6 @@
 // Tests the sort against std::stable_sort, with every way of counting and several sizes of tiles.
+#include "methods/kit/gpu/sort/radix_sort.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,8 +12,6 @@
 #include <vector>
 
 #include "methods/contract/errors.h"
-#include "methods/kit/gpu/sort/depth_keys.h"
-#include "methods/kit/gpu/sort/radix_sort.h"
 
 namespace dustbench::gpu {
 namespace {

@@ -1,9 +1,12 @@
-// Inclusive sums of unsigned numbers on the GPU, and compaction: the flagged elements of a buffer, in order.
+// Sums on the GPU: inclusive sums of unsigned numbers, compaction (the flagged elements of a buffer, in order), and
+// reduction to the sum, minimum or maximum of all elements.
 //
-// Three passes: the sum of each tile, the sums of all earlier tiles, the sums within each tile.
+// Inclusive sums take three passes: the sum of each tile, the sums of all earlier tiles, the sums within each tile.
 //
-// Owns: memory for a sum of each tile. Threads: the OpenGL thread's.
+// Owns: memory for a value of each tile. Threads: the OpenGL thread's. Sums of floats repeat to the bit on one device.
 #pragma once
+
+#include <string_view>
 
 #include "methods/kit/gpu/sort/tile_plan.h"
 
@@ -39,6 +42,25 @@ class DUSTBENCH_API Compaction {
     TilePlan plan_;
     Buffer before_;
     Program sumTiles_, sumRow_, scan_;
+};
+
+enum class Reduce { sum, minimum, maximum };
+enum class Number { uint32, float32 };
+
+class DUSTBENCH_API Reduction {
+ public:
+    Reduction(Device& device, std::uint32_t capacity, Reduce operation, Number number);
+
+    /// Writes the result into the first word of `result`. Without elements it is 0, the maximum of all numbers or their
+    /// minimum: infinities of floats.
+    void reduce(const Buffer& elements, const ElementCount& count, Buffer& result);
+
+    [[nodiscard]] std::size_t bytes() const { return plan_.bytes() + ofTiles_.bytes(); }
+
+ private:
+    TilePlan plan_;
+    Buffer ofTiles_;
+    Program program_;
 };
 
 }  // namespace dustbench::gpu

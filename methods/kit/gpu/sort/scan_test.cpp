@@ -1,4 +1,6 @@
 // Tests sums, compaction and reductions against the standard library.
+#include "methods/kit/gpu/sort/scan.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,9 +11,6 @@
 #include <numeric>
 #include <random>
 #include <vector>
-
-#include "methods/kit/gpu/sort/reduction.h"
-#include "methods/kit/gpu/sort/scan.h"
 
 namespace dustbench::gpu {
 namespace {

@@ -18,10 +18,9 @@
 #include <vector>
 
 #include "methods/kit/draw/depth_sort.h"
+#include "methods/kit/gpu/queue_marks.h"
 #include "methods/kit/gpu/sort/radix_sort.h"
-#include "methods/kit/gpu/sort/reduction.h"
 #include "methods/kit/gpu/sort/scan.h"
-#include "methods/kit/gpu/timer_query.h"
 
 namespace dustbench::gpu {
 namespace {

@@ -1,4 +1,4 @@
-// Unsigned keys in the order of floats that are not NaN; both zeros have one key. Equals sortableKey of depth_keys.h.
+// Unsigned keys in the order of floats that are not NaN; both zeros have one key. Equals sortableKey of radix_sort.h.
 uint sortableKey(float value) {
     uint bits = floatBitsToUint(value);
     if (bits == 0x80000000u) bits = 0u;

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "methods/kit/gpu/timer_query.h"
+#include "methods/kit/gpu/queue_marks.h"
 #include "methods/kit/octree/gpu/gpu_octree.h"
 #include "methods/kit/octree/gpu/puff_upload.h"
 #include "methods/kit/octree/map_builder_test_tree.h"

@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "methods/kit/pictures/picture_library.h"
-#include "methods/kit/pictures/picture_limits.h"
 
 namespace dustbench::pictures {
 namespace {

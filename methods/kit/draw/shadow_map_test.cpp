@@ -1,4 +1,4 @@
-#include "methods/kit/draw/dust_shadow.h"
+#include "methods/kit/draw/shadow_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,18 +1,14 @@
-#include "bench/measure/image/image_check.h"
+#include "bench/measure/image/picture.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "bench/measure/image/cutoff.h"
-#include "bench/measure/image/flip.h"
+#include "bench/measure/image/flaw_metrics.h"
 #include "bench/measure/image/picture_error.h"
 #include "bench/measure/image/popping.h"
-#include "bench/measure/image/self_similarity.h"
-#include "bench/measure/image/ssim.h"
 #include "bench/measure/image/test_images.h"
-#include "bench/measure/image/trail_gaps.h"
 #include "bench/measure/image/volume_error.h"
 #include "methods/kit/testing/test_input_error.h"
 

@@ -1,4 +1,4 @@
-// Measures GPU time of a section of commands; results are read later, so that nothing waits.
+// Marks in the GPU's command queue: fences that the CPU can wait for, and timers of the commands between two marks.
 //
 // Some drivers report wrong times (llvmpipe: 0.02 ms instead of 59); `timerQueriesAreTrue` detects them.
 #pragma once
@@ -10,6 +10,23 @@
 
 namespace dustbench::gpu {
 
+class DUSTBENCH_API Fence {
+ public:
+    Fence() = default;
+    /// A marker after all work queued so far.
+    [[nodiscard]] static Fence afterQueuedWork();
+    ~Fence();
+    Fence(Fence&& other) noexcept;
+    Fence& operator=(Fence&& other) noexcept;
+
+    /// Blocks until the work before the marker is done; returns at once if there is no marker.
+    void wait();
+
+ private:
+    void* sync_ = nullptr;
+};
+
+/// Measures GPU time of a section of commands; results are read later, so that nothing waits.
 class DUSTBENCH_API TimerQuery {
  public:
     TimerQuery() = default;

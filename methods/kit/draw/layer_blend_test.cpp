@@ -1,4 +1,4 @@
-#include "methods/kit/draw/composite.h"
+#include "methods/kit/draw/layer_blend.h"
 
 #include <gtest/gtest.h>
 

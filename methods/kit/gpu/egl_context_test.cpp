@@ -1,4 +1,4 @@
-#include "methods/kit/gpu/current_context.h"
+#include "methods/kit/gpu/egl_context.h"
 
 #include <gtest/gtest.h>
 

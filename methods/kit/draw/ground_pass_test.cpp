@@ -1,4 +1,4 @@
-#include "methods/kit/draw/ground_texture.h"
+#include "methods/kit/draw/ground_pass.h"
 
 #include <gtest/gtest.h>
 
