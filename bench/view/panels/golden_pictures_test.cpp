@@ -9,12 +9,8 @@
 #include <cstdlib>
 
 #include "bench/measure/image/heat_map.h"
-<<<<<<< HEAD
-#include "bench/view/panels/panel_canvas.h"
-=======
 #include "bench/measure/image/picture_error.h"
-#include "bench/view/panels/panel_target.h"
->>>>>>> 3d5c7856 (kit, metrics: one concept a file: contexts, marks in the queue, sums and sorts on the GPU, points and lines, shadows, meshes, pictures)
+#include "bench/view/panels/panel_canvas.h"
 #include "bench/view/panels/panels_fixture.h"
 #include "source_folder.h"
 

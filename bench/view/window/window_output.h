@@ -5,15 +5,11 @@
 
 #include <memory>
 
-<<<<<<< HEAD
 #include "bench/view/panels/panel_canvas.h"
-#include "methods/kit/gpu/egl_context.h"
-    =======
-#include "bench/view/panels/panel_target.h"
-    >>>>>>> 3d5c7856 (kit, metrics: one concept a file: contexts, marks in the queue, sums and sorts on the GPU, points and lines, shadows, meshes, pictures)
 #include "methods/kit/gpu/device.h"
+#include "methods/kit/gpu/egl_context.h"
 
-    struct GLFWwindow;
+struct GLFWwindow;
 
 namespace dustbench::bench {
 
