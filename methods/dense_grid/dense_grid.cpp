@@ -4,8 +4,8 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/octree/octree_dust.h"
-#include "methods/kit/octree/particle_place.h"
-#include "methods/kit/octree/voxel_rule.h"
+#include "methods/kit/octree/octree_settings.h"
+#include "methods/kit/octree/particle_cells.h"
 
 namespace dustbench::dense_grid {
 

@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #include "methods/contract/volume.h"
-#include "methods/kit/octree/octree_builder.h"
+#include "methods/kit/octree/octree.h"
 
 namespace dustbench::dense_grid {
 

@@ -4,7 +4,7 @@
 #include "methods/contract/errors.h"
 #include "methods/grid_fluid/grid_fluid.h"
 #include "methods/kit/files/data_folder.h"
-#include "methods/kit/raycast/raycast_parameters.h"
+#include "methods/kit/raycast/raycast_settings.h"
 
 namespace dustbench::grid_fluid {
 namespace {

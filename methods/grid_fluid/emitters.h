@@ -1,7 +1,9 @@
-// Converts the sources of a fluid's file into balls in the world for each step.
+// Converts the sources of a fluid's file into balls in the world for each step, and finds how much dust the wheels
+// raise.
 //
-// Units: SI. Frame: world. Threads: one at a time. Source: Senger2009, 4.3: a sinusoid in time with a random factor.
-// Departs: the random factor is drawn for each ball and step from Philox, and each ball has its own phase.
+// Units: SI; m² of optical mass (∫ extinction dV). Frame: world. Threads: one at a time. Source: Senger2009, 4.3: a
+// sinusoid in time with a random factor. Departs: the random factor is drawn for each ball and step from Philox, and
+// each ball has its own phase.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +12,22 @@
 #include <vector>
 
 #include "methods/contract/method.h"
+#include "methods/contract/volume.h"
 #include "methods/grid_fluid/flow/fluid_source.h"
 #include "methods/grid_fluid/fluid_setup.h"
 
 namespace dustbench::grid_fluid {
+
+// --- The rate at which the wheels raise dust: the mean optical mass that births add to the shared dust. Each puff born
+// in a step adds the mean mass of a puff of the shared cloud at that moment; the fluid's density decays at 1/mean
+// lifetime per second. Both clouds then hold the same mass, births·lifetime·mean mass, within the fluid's box.
+
+/// Mean mass of a cloud's puffs. In large clouds only every n-th puff is used.
+[[nodiscard]] double meanPuffMassSquareMetres(const Puffs& dust);
+/// Mean lifetime of a puff; 0 for an empty cloud.
+[[nodiscard]] double meanLifetimeSeconds(const Puffs& dust);
+/// Number of puffs born within the last step.
+[[nodiscard]] std::size_t bornWithin(const Puffs& dust, double stepSeconds);
 
 class Emitters {
  public:

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "methods/kit/parallel/for_each_block.h"
-#include "methods/kit/raycast/grid_renderer.h"
+#include "methods/kit/raycast/grid_raycast.h"
 #include "methods/kit/raycast/plain_march.h"
 
 namespace dustbench::grid_fluid::fire {

@@ -1,6 +1,6 @@
-// The setup of a fluid: box, forces, sources and appearance. Plain data, from data/fluids.
+// The setup of a fluid: box, forces, sources and appearance; plain data, from data/fluids. And the position of its box.
 //
-// Units: SI, radians. Colours: linear RGB.
+// Units: SI, radians. Frame: world. Colours: linear RGB. Threads: pure.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "methods/contract/choices.h"
+#include "methods/contract/scene.h"
+#include "methods/grid_fluid/flow/fluid_box.h"
 #include "methods/grid_fluid/flow/forces.h"
 
 namespace dustbench::grid_fluid {
@@ -36,7 +38,7 @@ struct SourceSetup {
     glm::vec3 velocity{0};  ///< m/s; of wheels: ahead, up, right
     float velocityPerSecond = 0;
     float swing = 0, swingSeconds = 1, chance = 0;
-    // For wheels only; the amount of dust follows the shared cloud, see dust_mass.h.
+    // For wheels only; the amount of dust follows the shared cloud, see emitters.h.
     float speedShare = 0;  ///< share of the vehicle's speed, added to |velocity| along it
     float inherit = 0;     ///< share of the wheel's own velocity
 };
@@ -64,5 +66,15 @@ struct FluidSetup {
 
 /// Throws InputError with file and line.
 [[nodiscard]] FluidSetup readFluid(const std::filesystem::path& file);
+
+// --- The box is stationary, or follows the vehicle by whole cells, so that its lattice stays fixed in the world
+
+/// The desired minimum corner, on the lattice of the box. A following box keeps the vehicle near the end in the driving
+/// direction; its floor is the ground if the ground is level.
+[[nodiscard]] glm::dvec3 wantedOrigin(const FluidSetup& setup, const flow::FluidBox& box, const scene::Terrain& terrain,
+                                      const scene::VehicleState& vehicle);
+
+/// Number of cells to move the box: zero until a minimum distance along an axis is reached, then the whole distance.
+[[nodiscard]] glm::ivec3 dueScroll(const flow::FluidBox& box, const glm::dvec3& wantedOrigin);
 
 }  // namespace dustbench::grid_fluid

@@ -8,12 +8,12 @@
 #include "methods/contract/errors.h"
 #include "methods/contract/scene.h"
 #include "methods/contract/volume.h"
-#include "methods/grid_fluid/dust_mass.h"
+#include "methods/grid_fluid/emitters.h"
 #include "methods/grid_fluid/flow/grid_noise.h"
-#include "methods/grid_fluid/fluid_place.h"
+#include "methods/grid_fluid/fluid_setup.h"
 #include "methods/kit/maths/hash.h"
 #include "methods/kit/maths/transmittance.h"
-#include "methods/kit/raycast/raycast_parameters.h"
+#include "methods/kit/raycast/raycast_settings.h"
 
 namespace dustbench::grid_fluid {
 namespace {

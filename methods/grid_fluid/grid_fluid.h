@@ -1,7 +1,7 @@
 // Smoke, fire and dust as a fluid: an Eulerian solver in a box, whose density is rendered by ray casting.
 //
 // The box may follow the vehicle; solids, the vehicle and the ground are voxelised in each step. The wheels raise as
-// much dust as the shared cloud gains (dust_mass.h).
+// much dust as the shared cloud gains (emitters.h).
 //
 // Source: Senger2009, 4 (after Crane2007). Departs: reports/decisions/0006-fluid-grid.md.
 #pragma once

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "methods/contract/volume.h"
-#include "methods/grid_fluid/dust_mass.h"
-#include "methods/grid_fluid/fluid_place.h"
+#include "methods/grid_fluid/emitters.h"
+#include "methods/grid_fluid/fluid_setup.h"
 #include "methods/grid_fluid/test_bodies.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/maths/transmittance.h"

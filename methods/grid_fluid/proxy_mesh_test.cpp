@@ -1,11 +1,10 @@
-#include "methods/grid_fluid/proxy_mesh.h"
+#include "methods/grid_fluid/fluid_solids.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "methods/grid_fluid/fluid_solids.h"
 #include "methods/grid_fluid/test_bodies.h"
 #include "methods/kit/meshes/mesh_file.h"
 

@@ -3,21 +3,56 @@
 // Each grid is drawn with a rim of empty cells. Interpolation is linear in the cells' values, so the rims of neighbours
 // add up to the picture of a single grid. The wind moves the trail's lattice relative to the box's, which a rim cannot
 // hide. So the box fades out within a few cells of its border and lends the missing density to the tiles, and no border
-// is visible. Light reaches each grid through all others (cloud_shade.h).
+// is visible. Light reaches each grid through all others (CloudShade).
 // Units: metres. Frame: world. Owns: a picture of each tile. Threads: the OpenGL thread.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <map>
 #include <memory>
 #include <vector>
 
-#include "methods/grid_fluid/cloud_shade.h"
 #include "methods/grid_fluid/trail/dust_trail.h"
 #include "methods/kit/raycast/grid_raycast.h"
+#include "methods/kit/raycast/shown_grid.h"
 
 namespace dustbench::grid_fluid {
+
+/// Sunlight that reaches a point in a cloud of several grids, through all of them but one.
+///
+/// Each grid is stored as means over blocks of cells, which it owns; a ray to the sun takes steps of one block. In
+/// metres of the world, extinction per metre. `arrivingAt` may be called from several threads.
+class CloudShade {
+ public:
+    static constexpr int block = 4;  ///< cells
+
+    /// `toSun`: unit vector.
+    CloudShade(const glm::vec3& toSun, double extinctionPerMetre) : toSun_(toSun), extinction_(extinctionPerMetre) {}
+
+    /// Identifies a grid.
+    using Id = std::array<int, 3>;
+
+    /// Adds or replaces a grid. All have the same spacing.
+    void set(const Id& id, const raycast::ShownGrid& grid);
+    /// Moves a grid and sets the remaining share of its original density.
+    void change(const Id& id, const glm::dvec3& originMetres, double share);
+    void remove(const Id& id) { grids_.erase(id); }
+    /// Share of the sunlight that passes all grids but this one.
+    [[nodiscard]] float arrivingAt(const glm::dvec3& place, const Id& without) const;
+
+ private:
+    struct Blocks {
+        glm::dvec3 minimum;
+        glm::ivec3 count;
+        std::vector<float> mean;
+        double share = 1;
+    };
+    glm::dvec3 toSun_;
+    double extinction_, blockMetres_ = 0;
+    std::map<Id, Blocks> grids_;
+};
 
 class TrailPicture {
  public:

@@ -8,8 +8,8 @@
 #include "methods/kit/octree/brick_builder.h"
 #include "methods/kit/octree/gpu/gpu_octree_dust.h"
 #include "methods/kit/octree/octree_dust.h"
-#include "methods/kit/octree/particle_place.h"
-#include "methods/kit/octree/voxel_rule.h"
+#include "methods/kit/octree/octree_settings.h"
+#include "methods/kit/octree/particle_cells.h"
 
 namespace dustbench::octree_recursive {
 

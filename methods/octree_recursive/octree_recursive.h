@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "methods/contract/volume.h"
-#include "methods/kit/octree/brick_assembly.h"
-#include "methods/kit/octree/octree_builder.h"
+#include "methods/kit/octree/brick_builder.h"
+#include "methods/kit/octree/octree.h"
 #include "methods/kit/octree/particle_cells.h"
 
 namespace dustbench::octree_recursive {

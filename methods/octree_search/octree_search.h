@@ -9,11 +9,10 @@
 #include <cstdint>
 
 #include "methods/contract/volume.h"
-#include "methods/kit/octree/brick_assembly.h"
-#include "methods/kit/octree/octree_builder.h"
+#include "methods/kit/octree/brick_builder.h"
+#include "methods/kit/octree/octree.h"
+#include "methods/kit/octree/octree_settings.h"
 #include "methods/kit/octree/particle_cells.h"
-#include "methods/kit/octree/particle_place.h"
-#include "methods/kit/octree/voxel_rule.h"
 
 namespace dustbench::octree_search {
 

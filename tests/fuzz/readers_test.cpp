@@ -28,7 +28,6 @@
 #include "methods/kit/pictures/image.h"
 #include "methods/kit/testing/test_folder.h"
 #include "methods/kit/volumes/vdb_process.h"
-#include "methods/kit/volumes/vector_file.h"
 #include "methods/kit/volumes/volume_file.h"
 #include "methods/kit/volumes/volume_series.h"
 #include "source_folder.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "methods/kit/octree/brick_builder.h"
-#include "methods/kit/octree/octree_march_tree.h"
+#include "methods/kit/octree/octree_march.h"
 #include "methods/kit/octree/plain_octree.h"
 #include "methods/kit/particles/particle_store.h"
 #include "methods/octree_recursive/octree_recursive.h"

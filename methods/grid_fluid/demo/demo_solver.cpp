@@ -6,7 +6,7 @@
 #include <string>
 
 #include "methods/contract/errors.h"
-#include "methods/grid_fluid/flow/source_reach.h"
+#include "methods/grid_fluid/flow/fluid_source.h"
 #include "methods/kit/maths/hash.h"
 #include "methods/kit/parallel/for_each_block.h"
 

@@ -10,7 +10,7 @@
 
 #include "grid_fluid_demo_shaders.h"
 #include "methods/contract/errors.h"
-#include "methods/grid_fluid/flow/source_reach.h"
+#include "methods/grid_fluid/flow/fluid_source.h"
 #include "methods/kit/maths/hash.h"
 
 namespace dustbench::grid_fluid::demo {

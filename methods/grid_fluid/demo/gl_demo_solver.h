@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "methods/grid_fluid/demo/demo_rule.h"
+#include "methods/grid_fluid/demo/demo_solver.h"
 #include "methods/grid_fluid/flow/solver.h"
 #include "methods/grid_fluid/flow_gl/kernel.h"
 #include "methods/kit/gpu/buffer.h"

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "methods/grid_fluid/flow/box_ghosts.h"
-#include "methods/grid_fluid/flow/fluid_settings.h"
 #include "methods/grid_fluid/flow/solid_cells.h"
+#include "methods/grid_fluid/flow/solver.h"
 
 namespace dustbench::grid_fluid::flow {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "methods/grid_fluid/flow/cell_field.h"
-#include "methods/grid_fluid/flow/exchanged_density.h"
+#include "methods/grid_fluid/flow/solver.h"
 
 namespace dustbench::grid_fluid::flow {
 

@@ -13,8 +13,8 @@
 
 #include "methods/contract/errors.h"
 #include "methods/grid_fluid/flow/density_balance.h"
+#include "methods/grid_fluid/flow/fluid_source.h"
 #include "methods/grid_fluid/flow/lanes.h"
-#include "methods/grid_fluid/flow/source_reach.h"
 #include "methods/kit/memory/available_memory.h"
 #include "methods/kit/parallel/for_each_block.h"
 

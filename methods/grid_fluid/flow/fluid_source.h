@@ -1,10 +1,12 @@
-// A source of smoke, heat, fuel and motion: a ball with a soft edge.
+// A source of smoke, heat, fuel and motion: a ball with a soft edge, and the cells that it affects.
 //
-// Units: metres, seconds. Frame: world. Source: Senger2009, 4.3 (a Gaussian, times a function of time).
-// Departs: strengths are per second; the caller varies them with time.
+// Units: metres, seconds; cells where stated. Frame: world. Threads: pure. Source: Senger2009, 4.3 (a Gaussian, times a
+// function of time). Departs: strengths are per second; the caller varies them with time.
 #pragma once
 
 #include <glm/glm.hpp>
+
+#include "methods/grid_fluid/flow/fluid_box.h"
 
 namespace dustbench::grid_fluid::flow {
 
@@ -20,5 +22,17 @@ struct FluidSource {
     glm::vec3 velocityMetresPerSecond{0};
     float velocityPerSecond = 0;  ///< rate at which the air assumes the source's velocity; 0: not at all
 };
+
+/// The cells affected by a source, and its contribution to them in a step; the same for every backend.
+struct SourceReach {
+    glm::dvec3 centreCells{0};  ///< the centre of cell (0, 0, 0) is at 0
+    float perRadius = 1;        ///< inverse radius; the radius is at least half a cell
+    glm::ivec3 first{0}, last{-1};
+
+    [[nodiscard]] bool empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }
+};
+
+/// Throws InputError for a source without a radius.
+[[nodiscard]] SourceReach reachOf(const FluidSource& source, const FluidBox& box);
 
 }  // namespace dustbench::grid_fluid::flow

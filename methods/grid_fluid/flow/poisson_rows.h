@@ -7,7 +7,7 @@
 #include <cstddef>
 
 #include "methods/grid_fluid/flow/lanes.h"
-#include "methods/grid_fluid/flow/split_rows.h"
+#include "methods/grid_fluid/flow/poisson_level.h"
 #include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::grid_fluid::flow {

@@ -4,7 +4,6 @@
 
 #include "methods/grid_fluid/flow/poisson_level.h"
 #include "methods/grid_fluid/flow/poisson_rows.h"
-#include "methods/grid_fluid/flow/relaxation.h"
 
 namespace dustbench::grid_fluid::flow {
 

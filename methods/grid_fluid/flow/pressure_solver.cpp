@@ -3,13 +3,46 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <map>
+#include <numeric>
 #include <utility>
 
-#include "methods/grid_fluid/flow/relaxation.h"
+#include "methods/grid_fluid/flow/poisson_level.h"
 #include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::grid_fluid::flow {
 namespace {
+
+/// Disjoint sets (union-find); each is identified by its minimum member.
+class Sets {
+ public:
+    explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+    [[nodiscard]] std::size_t of(std::size_t x) {
+        while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
+        return x;
+    }
+    void merge(std::size_t a, std::size_t b) {
+        a = of(a), b = of(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+ private:
+    std::vector<std::size_t> parent_;
+};
+
+void findRuns(const std::uint8_t* row, int nx, int j, int k, std::vector<Run>& runs) {
+    for (int i = 0; i < nx;) {
+        if (row[i] != 1) {
+            ++i;
+            continue;
+        }
+        const void* solid = std::memchr(row + i, 0, static_cast<std::size_t>(nx - i));
+        const int end = solid == nullptr ? nx : static_cast<int>(static_cast<const std::uint8_t*>(solid) - row);
+        runs.push_back({i, end, j, k});
+        i = end;
+    }
+}
 
 constexpr std::size_t fewCells = 64;  ///< systems up to this size are solved exactly
 
@@ -21,6 +54,79 @@ constexpr std::array relaxationsBetween = [] {
 }();
 
 }  // namespace
+
+std::vector<std::vector<Run>> closedRegions(const CellLayout& layout, const std::uint8_t* conductance) {
+    std::vector<Run> runs;
+    std::vector<std::size_t> firstOfRow(layout.rows() + 1);
+    for (std::size_t r = 0; r < layout.rows(); ++r) {
+        firstOfRow[r] = runs.size();
+        const int j = layout.rowJ(r), k = layout.rowK(r);
+        findRuns(conductance + layout.at(0, j, k), layout.nx, j, k, runs);
+    }
+    firstOfRow[layout.rows()] = runs.size();
+    Sets sets(runs.size());
+    const auto mergeRows = [&](std::size_t one, std::size_t other) {
+        std::size_t a = firstOfRow[one], b = firstOfRow[other];
+        while (a < firstOfRow[one + 1] && b < firstOfRow[other + 1]) {
+            if (std::max(runs[a].i, runs[b].i) < std::min(runs[a].end, runs[b].end)) sets.merge(a, b);
+            if (runs[a].end < runs[b].end)
+                ++a;
+            else
+                ++b;
+        }
+    };
+    const auto ny = static_cast<std::size_t>(layout.ny);
+    for (std::size_t r = 0; r < layout.rows(); ++r) {
+        if (r % ny != 0) mergeRows(r - 1, r);
+        if (r >= ny) mergeRows(r - ny, r);
+    }
+    std::vector<bool> isOpen(runs.size(), false);
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        const Run& run = runs[r];
+        const auto opens = [&](int i, int j, int k, std::size_t count) {
+            return std::memchr(conductance + layout.at(i, j, k), 2, count) != nullptr;
+        };
+        const auto length = static_cast<std::size_t>(run.end - run.i);
+        if ((run.i == 0 && opens(-1, run.j, run.k, 1)) || (run.end == layout.nx && opens(layout.nx, run.j, run.k, 1)) ||
+            (run.j == 0 && opens(run.i, -1, run.k, length)) ||
+            (run.j == layout.ny - 1 && opens(run.i, layout.ny, run.k, length)) ||
+            (run.k == 0 && opens(run.i, run.j, -1, length)) ||
+            (run.k == layout.nz - 1 && opens(run.i, run.j, layout.nz, length)))
+            isOpen[sets.of(r)] = true;
+    }
+    std::map<std::size_t, std::vector<Run>> closedRuns;
+    for (std::size_t r = 0; r < runs.size(); ++r)
+        if (const std::size_t set = sets.of(r); !isOpen[set]) closedRuns[set].push_back(runs[r]);
+    std::vector<std::vector<Run>> regions;
+    regions.reserve(closedRuns.size());
+    for (auto& [set, region] : closedRuns) regions.push_back(std::move(region));
+    return regions;
+}
+
+void DenseSolver::factor(std::vector<double> matrix, std::size_t n) {
+    lower_ = std::move(matrix);
+    n_ = n;
+    for (std::size_t c = 0; c < n; ++c) {
+        const double original = lower_[c * n + c];
+        double pivot = original;
+        for (std::size_t k = 0; k < c; ++k) pivot -= lower_[c * n + k] * lower_[c * n + k] * lower_[k * n + k];
+        const bool vanishes = !(pivot > 1e-7 * original);
+        lower_[c * n + c] = vanishes ? 0 : pivot;
+        for (std::size_t r = c + 1; r < n; ++r) {
+            double sum = lower_[r * n + c];
+            for (std::size_t k = 0; k < c; ++k) sum -= lower_[r * n + k] * lower_[c * n + k] * lower_[k * n + k];
+            lower_[r * n + c] = vanishes ? 0 : sum / pivot;
+        }
+    }
+}
+
+void DenseSolver::solve(std::vector<double>& x) const {
+    for (std::size_t r = 0; r < n_; ++r)
+        for (std::size_t k = 0; k < r; ++k) x[r] -= lower_[r * n_ + k] * x[k];
+    for (std::size_t r = 0; r < n_; ++r) x[r] = lower_[r * n_ + r] > 0 ? x[r] / lower_[r * n_ + r] : 0;
+    for (std::size_t r = n_; r-- > 0;)
+        for (std::size_t k = r + 1; k < n_; ++k) x[r] -= lower_[k * n_ + r] * x[k];
+}
 
 PressureSolver::PressureSolver(const CellLayout& layout, const Sides& sides) : layout_(layout) {
     for (std::size_t side = 0; side < 6; ++side) openSides_[side] = sides[side] == Side::open ? 1 : 0;

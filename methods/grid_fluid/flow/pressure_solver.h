@@ -7,16 +7,40 @@
 // Departs: a coarse face conducts the mean of its finer faces, so that solids thinner than a coarse cell still count.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "methods/grid_fluid/flow/closed_regions.h"
-#include "methods/grid_fluid/flow/dense_solver.h"
+#include "methods/grid_fluid/flow/cell_field.h"
 #include "methods/grid_fluid/flow/fluid_box.h"
 #include "methods/grid_fluid/flow/poisson_level.h"
 
 namespace dustbench::grid_fluid::flow {
+
+/// Adjacent cells of fluid along x.
+struct Run {
+    int i, end, j, k;
+};
+
+/// The runs of each closed region of fluid, which has no outflow: its pressure is determined only up to a constant, and
+/// its net inflow cannot be removed. In the order of cells. Empty if all fluid is connected to an open side.
+[[nodiscard]] std::vector<std::vector<Run>> closedRegions(const CellLayout& layout, const std::uint8_t* conductance);
+
+/// Solves a small symmetric, possibly singular system exactly: the coarsest level of the pressure's hierarchy.
+/// Source: GolubVanLoan2013, 4.1.2 (LDLᵀ). Departs: a vanishing pivot fixes its unknown at 0.
+class DenseSolver {
+ public:
+    /// `matrix` is n×n, row by row, symmetric and positive semidefinite.
+    void factor(std::vector<double> matrix, std::size_t n);
+    /// Solves in place.
+    void solve(std::vector<double>& x) const;
+
+ private:
+    std::vector<double> lower_;
+    std::size_t n_ = 0;
+};
 
 enum class PressureMethod { jacobi, multigrid };
 

@@ -1,4 +1,5 @@
-// The solid cells, the speeds of their faces, the moving parts of all cells, and the conductance between cells.
+// Solids as given by a voxeliser, and on the CPU: the solid cells, the speeds of their faces, the moving parts of all
+// cells, and the conductance between cells.
 //
 // Units: metres per second. Owns copies of its inputs. Threads: one writer.
 // Source: Crane2007, 30.2.4. Departs: each cell is inside or outside; a solid's speed is stored on the faces of its
@@ -13,9 +14,45 @@
 #include "methods/grid_fluid/flow/advection.h"
 #include "methods/grid_fluid/flow/cell_field.h"
 #include "methods/grid_fluid/flow/fluid_box.h"
-#include "methods/grid_fluid/flow/solid_mask.h"
 
 namespace dustbench::grid_fluid::flow {
+
+// --- The same for every backend
+
+/// Motion of a solid relative to the grid: that of a rigid body, or one for each of its cells.
+struct BodyMotion {
+    glm::vec3 velocity{0};     ///< metres per second, at `centreCells`
+    glm::vec3 turnPerCell{0};  ///< metres per second per cell of distance: angular velocity times spacing
+    glm::vec3 centreCells{0};  ///< from the minimum corner of the box
+    bool byCell = false;       ///< it deforms: SolidMask::velocities apply instead
+
+    /// The velocity at a place in cells from the minimum corner of the box.
+    [[nodiscard]] glm::vec3 velocityAt(const glm::vec3& place) const {
+        return velocity + glm::cross(turnPerCell, place - centreCells);
+    }
+};
+
+/// A number for each cell, x fastest, without ghosts.
+struct SolidMask {
+    std::span<const std::uint8_t> body;       ///< 0: fluid; n: the n-th solid; empty: fluid everywhere
+    std::span<const BodyMotion> motions;      ///< of the solids, in order; solids beyond the last are at rest
+    std::span<const glm::vec3> velocities{};  ///< of each cell in a deforming solid; empty: there is none
+
+    /// Velocity of the solid with this number, above 0, in one of its cells.
+    [[nodiscard]] glm::vec3 velocityOf(std::uint8_t solid, std::size_t cellIndex, const glm::ivec3& cell) const {
+        const std::size_t n = solid - std::size_t{1};
+        if (n >= motions.size()) return glm::vec3(0);
+        return motions[n].byCell ? velocities[cellIndex] : motions[n].velocityAt(glm::vec3(cell) + 0.5f);
+    }
+};
+
+/// Throws InputError if sizes do not match, a velocity is not finite, or no fluid remains.
+void check(const SolidMask& mask, const CellLayout& layout);
+
+/// The conductance of each padded cell if there are no solids (SolidCells::conductance).
+void conductEverywhere(const CellLayout& layout, const Sides& sides, std::span<std::uint8_t> conductance);
+
+// --- On the CPU
 
 class SolidCells {
  public:

@@ -9,7 +9,6 @@
 #include "methods/grid_fluid/flow/advection.h"
 #include "methods/grid_fluid/flow_gl/cells_on_gpu.h"
 #include "methods/grid_fluid/flow_gl/kernel.h"
-#include "methods/grid_fluid/flow_gl/step_report.h"
 
 namespace dustbench::grid_fluid::flow_gl {
 

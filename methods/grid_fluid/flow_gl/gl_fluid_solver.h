@@ -14,12 +14,9 @@
 #include "methods/grid_fluid/flow/solver.h"
 #include "methods/grid_fluid/flow_gl/advection_on_gpu.h"
 #include "methods/grid_fluid/flow_gl/density_on_gpu.h"
-#include "methods/grid_fluid/flow_gl/exchange_on_gpu.h"
 #include "methods/grid_fluid/flow_gl/forces_on_gpu.h"
-#include "methods/grid_fluid/flow_gl/ghosts_on_gpu.h"
 #include "methods/grid_fluid/flow_gl/pressure_on_gpu.h"
 #include "methods/grid_fluid/flow_gl/solids_on_gpu.h"
-#include "methods/grid_fluid/flow_gl/sources_on_gpu.h"
 #include "methods/kit/gpu/texture.h"
 
 namespace dustbench::grid_fluid::flow_gl {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "grid_fluid_flow_gl_shaders.h"
-#include "methods/grid_fluid/flow/relaxation.h"
+#include "methods/grid_fluid/flow/poisson_level.h"
 
 namespace dustbench::grid_fluid::flow_gl {
 namespace {

@@ -10,11 +10,10 @@
 #include <span>
 #include <vector>
 
-#include "methods/grid_fluid/flow/closed_regions.h"
 #include "methods/grid_fluid/flow/fluid_box.h"
 #include "methods/grid_fluid/flow/pressure_solver.h"
+#include "methods/grid_fluid/flow_gl/cells_on_gpu.h"
 #include "methods/grid_fluid/flow_gl/kernel.h"
-#include "methods/grid_fluid/flow_gl/step_report.h"
 #include "methods/kit/gpu/buffer.h"
 
 namespace dustbench::grid_fluid::flow_gl {

@@ -1,4 +1,4 @@
-// Adds the interpolated coarse pressure, multiplied by `times` (flow/relaxation.h), to the black cells. The red ones
+// Adds the interpolated coarse pressure, multiplied by `times` (flow/poisson_level.h), to the black cells. The red ones
 // follow with the next sweep.
 layout(std430, binding = 1) restrict buffer Pressure { float pressure[]; };
 layout(std430, binding = 2) restrict readonly buffer Wide { float wide[]; };

@@ -1,5 +1,9 @@
 #include "methods/grid_fluid/flow_gl/solids_on_gpu.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "grid_fluid_flow_gl_shaders.h"
 #include "methods/kit/parallel/for_each_block.h"
 
@@ -8,6 +12,12 @@ namespace {
 
 using namespace grid_fluid_flow_gl_shaders;
 
+std::map<std::string, std::string> ghostDefinitions(const flow::GhostRule& rule) {
+    const glm::vec3& wind = rule.windMetresPerSecond;
+    return {{"SIDES", sidesText(rule.sides)},
+            {"WIND", fmt::format("vec3({:.9e}, {:.9e}, {:.9e})", wind.x, wind.y, wind.z)}};
+}
+
 constexpr std::size_t maximumMotions = 255;
 
 std::size_t inWords(std::size_t bytes) {
@@ -15,6 +25,24 @@ std::size_t inWords(std::size_t bytes) {
 }
 
 }  // namespace
+
+GhostsOnGpu::GhostsOnGpu(gpu::Device& device, const glm::ivec3& cells, const flow::GhostRule& rule)
+    : cells_(cells),
+      ghosts_(device, {grid_glsl, ghosts_comp}, ghostDefinitions(rule)),
+      sideFaces_(device, {grid_glsl, side_faces_comp}, ghostDefinitions(rule)) {
+    for (Kernel* kernel : {&ghosts_, &sideFaces_}) kernel->set("cells", cells);
+    ghosts_.set("noSlip", rule.noSlip ? 1 : 0);
+}
+
+void GhostsOnGpu::fill(const CellsOnGpu& state) {
+    state.bind(1);
+    ghosts_.run({std::max(cells_.x, cells_.y) + 2, std::max(cells_.y, cells_.z) + 2, 6});
+}
+
+void GhostsOnGpu::setSideFaces(const CellsOnGpu& state) {
+    state.moving.bindStorage(1);
+    sideFaces_.run({std::max(cells_.x, cells_.y), std::max(cells_.y, cells_.z), 6});
+}
 
 SolidsOnGpu::SolidsOnGpu(gpu::Device& device, const flow::CellLayout& layout, const flow::Sides& sides,
                          MemoryAccount& account)

@@ -1,19 +1,32 @@
-// The solid cells and their motion on the GPU, as in flow::SolidCells.
+// The boundaries of the flow on the GPU: the ghosts beyond the sides of the box, as flow::fillGhosts fills them, and
+// the solid cells with their motion, as in flow::SolidCells.
 //
 // The host keeps a copy of the conductance of each cell, to find closed regions. Units: metres per second. Owns its
-// buffers.
-// Threads: the OpenGL thread's.
+// buffers. Threads: the OpenGL thread's.
 #pragma once
 
 #include <vector>
 
-#include "methods/grid_fluid/flow/closed_regions.h"
+#include "methods/grid_fluid/flow/box_ghosts.h"
 #include "methods/grid_fluid/flow/fluid_box.h"
-#include "methods/grid_fluid/flow/solid_mask.h"
+#include "methods/grid_fluid/flow/pressure_solver.h"
+#include "methods/grid_fluid/flow/solid_cells.h"
 #include "methods/grid_fluid/flow_gl/cells_on_gpu.h"
 #include "methods/grid_fluid/flow_gl/kernel.h"
 
 namespace dustbench::grid_fluid::flow_gl {
+
+class GhostsOnGpu {
+ public:
+    GhostsOnGpu(gpu::Device& device, const glm::ivec3& cells, const flow::GhostRule& rule);
+    /// As flow::fillGhosts and flow::setSideFaces.
+    void fill(const CellsOnGpu& state);
+    void setSideFaces(const CellsOnGpu& state);
+
+ private:
+    glm::ivec3 cells_;
+    Kernel ghosts_, sideFaces_;
+};
 
 class SolidsOnGpu {
  public:

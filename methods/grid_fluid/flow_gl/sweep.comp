@@ -1,5 +1,5 @@
 // One colour of a Gauss-Seidel sweep, p = (sum of w p - f) / sum of w, with the step scaled by `relaxation`
-// (flow/relaxation.h); or of a Jacobi sweep if the target is another field.
+// (flow/poisson_level.h); or of a Jacobi sweep if the target is another field.
 // Source: Trottenberg2001, 2.4; Crane2007, 30.2.3.
 layout(std430, binding = 2) buffer Target { float target[]; };
 layout(std430, binding = 4) restrict readonly buffer RightSide { float rightSide[]; };

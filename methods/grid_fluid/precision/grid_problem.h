@@ -7,7 +7,8 @@
 //             leaves at the wind's speed, so that results do not depend on a solver's open sides
 //
 // The step of a problem is proportional to the cell size of its grid. The initial flow is divergence-free on that grid.
-// Units: SI. Frame: the box's minimum corner is the origin.
+// Units: SI. Frame: the box's minimum corner is the origin. Threads: rows in blocks. Source: Rosenhead1930 (the
+// softened kernel of the vortex ring).
 #pragma once
 
 #include <cstdint>
@@ -15,11 +16,29 @@
 #include <vector>
 
 #include "methods/contract/choices.h"
-#include "methods/grid_fluid/flow/fluid_settings.h"
+#include "methods/grid_fluid/flow/fluid_box.h"
 #include "methods/grid_fluid/flow/fluid_source.h"
+#include "methods/grid_fluid/flow/solver.h"
 #include "methods/grid_fluid/precision/staggered_flow.h"
 
 namespace dustbench::grid_fluid::precision {
+
+/// A vortex ring as an initial flow. It moves towards +x.
+///
+/// Its vector potential is that of a thin ring whose kernel is softened by the core's radius; the speed of a face is
+/// the circulation of the potential around it, so the flow is divergence-free except for rounding.
+struct VortexRing {
+    glm::dvec3 centreMetres{0};
+    double radiusMetres = 1;
+    double coreMetres = 0.1;
+    double circulationM2PerSecond = 1;
+
+    /// Radius to the centre of the core.
+    [[nodiscard]] double distanceMetres(const glm::dvec3& place) const;
+};
+
+/// Sets the speeds of all faces and ignores walls.
+void addRing(const VortexRing& ring, const flow::FluidBox& box, StaggeredFlow& flow);
 
 enum class ProblemKind : std::uint8_t { plume, ring, car };
 inline constexpr Choices<ProblemKind> problemKinds{

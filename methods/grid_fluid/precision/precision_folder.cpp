@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "methods/contract/errors.h"
-#include "methods/grid_fluid/precision/flow_distance.h"
+#include "methods/grid_fluid/precision/staggered_flow.h"
 #include "methods/kit/files/csv.h"
 #include "methods/kit/files/toml_reader.h"
 #include "methods/kit/files/whole_text.h"

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "methods/contract/errors.h"
-#include "methods/grid_fluid/precision/flow_distance.h"
+#include "methods/grid_fluid/precision/grid_problem.h"
 #include "methods/grid_fluid/precision/precision_folder.h"
-#include "methods/grid_fluid/precision/vortex_ring.h"
+#include "methods/grid_fluid/precision/staggered_flow.h"
 #include "methods/kit/files/csv.h"
 
 namespace dustbench::grid_fluid::precision {

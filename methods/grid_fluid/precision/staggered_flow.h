@@ -1,12 +1,14 @@
-// A flow with speeds on faces, and its file format, so that flows of any solver can be compared.
+// A flow with speeds on faces, its file format, so that flows of any solver can be compared, and its distance from a
+// reference on the same cells.
 //
 // File: the line `dustbench-flow 1 NX NY NZ`, then 32-bit floats, little-endian, x fastest: the density of NX·NY·NZ
 // cells, then the speeds along x of (NX+1)·NY·NZ faces, along y of NX·(NY+1)·NZ and along z of NX·NY·(NZ+1).
-// Units: m/s.
+// Units: SI. Threads: pure.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <span>
@@ -54,5 +56,30 @@ void writeFlow(const std::filesystem::path& file, const StaggeredFlow& flow);
 [[nodiscard]] StaggeredFlow readFlow(const std::filesystem::path& file);
 /// Writes 32-bit floats without a first line.
 void writeFloats(const std::filesystem::path& file, std::span<const float> values);
+
+// --- Comparison
+
+/// Means over `refinement`³ cells and `refinement`² faces, which preserve the flow through the coarse faces. A flow on
+/// a finer grid is averaged before it is compared.
+[[nodiscard]] StaggeredFlow averaged(const StaggeredFlow& flow, int refinement);
+
+struct FlowDistance {
+    double density = 0;    ///< ‖a − b‖ / ‖b‖ over cells
+    double velocity = 0;   ///< the same for speeds over faces
+    double enstrophy = 0;  ///< |ln(Σω²(a) / Σω²(b))|, ω of the edges between the cells
+    /// Root mean square of ln(E(a) / E(b)) over the wave numbers 1, 2, … of the velocity's cosine series, in half waves
+    /// per width along z, up to the finest that the cells hold.
+    double spectrum = 0;
+};
+[[nodiscard]] FlowDistance distanceOf(const StaggeredFlow& flow, const StaggeredFlow& reference);
+
+/// Conserved or bounded quantities.
+struct FlowSums {
+    double massM3 = 0;             ///< Σ density·volume
+    double energyM5PerS2 = 0;      ///< Σ u²/2·volume over faces
+    double divergencePerStep = 0;  ///< maximum of |∇·u|·Δt over cells that are not solid
+};
+[[nodiscard]] FlowSums sumsOf(const StaggeredFlow& flow, std::span<const std::uint8_t> solids, double spacingMetres,
+                              double stepSeconds);
 
 }  // namespace dustbench::grid_fluid::precision

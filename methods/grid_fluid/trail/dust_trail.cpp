@@ -4,7 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include "methods/grid_fluid/trail/overlaps.h"
 #include "methods/kit/maths/hash.h"
 
 namespace dustbench::grid_fluid {

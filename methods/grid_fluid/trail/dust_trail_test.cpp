@@ -8,7 +8,6 @@
 
 #include "methods/grid_fluid/flow/fluid_solver.h"
 #include "methods/grid_fluid/trail/fluid_trail.h"
-#include "methods/grid_fluid/trail/overlaps.h"
 
 namespace dustbench::grid_fluid {
 namespace {

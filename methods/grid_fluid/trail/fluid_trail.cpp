@@ -5,7 +5,7 @@
 #include <limits>
 #include <tuple>
 
-#include "methods/grid_fluid/trail/overlaps.h"
+#include "methods/grid_fluid/trail/dust_trail.h"
 
 namespace dustbench::grid_fluid {
 namespace {

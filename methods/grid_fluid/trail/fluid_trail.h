@@ -10,7 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "methods/grid_fluid/flow/fluid_settings.h"
 #include "methods/grid_fluid/flow/fluid_source.h"
 #include "methods/grid_fluid/flow/solver.h"
 #include "methods/grid_fluid/trail/dust_trail.h"

@@ -11,7 +11,7 @@
 #include <array>
 #include <cstdint>
 
-#include "methods/kit/octree/node_block.h"
+#include "methods/kit/octree/octree.h"
 
 namespace dustbench::octree {
 

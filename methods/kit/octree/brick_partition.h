@@ -13,10 +13,9 @@
 
 #include "methods/contract/volume.h"
 #include "methods/kit/octree/brick_nodes.h"
-#include "methods/kit/octree/cell_entry.h"
 #include "methods/kit/octree/cell_kernel.h"
-#include "methods/kit/octree/reused_array.h"
-#include "methods/kit/octree/voxel_rule.h"
+#include "methods/kit/octree/octree.h"
+#include "methods/kit/octree/octree_settings.h"
 
 namespace dustbench::octree {
 

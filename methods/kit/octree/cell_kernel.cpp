@@ -5,7 +5,7 @@
 
 #include "methods/contract/errors.h"
 #include "methods/contract/volume.h"
-#include "methods/kit/octree/cell_entry.h"
+#include "methods/kit/octree/octree.h"
 
 namespace dustbench::octree {
 

@@ -1,4 +1,4 @@
-#include "methods/kit/octree/cross_fade.h"
+#include "methods/kit/octree/voxel_cloud.h"
 
 #include <gtest/gtest.h>
 

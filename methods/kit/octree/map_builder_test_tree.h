@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "methods/kit/octree/cell_kernel.h"
-#include "methods/kit/octree/octree_builder.h"
-#include "methods/kit/octree/voxel_rule.h"
+#include "methods/kit/octree/octree.h"
+#include "methods/kit/octree/octree_settings.h"
 
 namespace dustbench::octree {
 

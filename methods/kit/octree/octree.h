@@ -1,20 +1,121 @@
-// The octree of one frame: nodes for traversal, and its voxels in a fixed order.
+// The octree of one frame: nodes for traversal, and its voxels in a fixed order; and the interface of its builders.
 //
 // Units: metres. Frame: world. Owns: nodes and voxels, booked on a ledger and kept between frames. Threads: any thread
 // may call const members.
 // Source: Carr2006, 3.2 and Fig. 3.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <span>
 
-#include "methods/kit/octree/cell_entry.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/memory/memory_ledger.h"
 #include "methods/kit/octree/lattice.h"
-#include "methods/kit/octree/node_block.h"
-#include "methods/kit/octree/reused_array.h"
+#include "methods/kit/octree/octree_settings.h"
 
 namespace dustbench::octree {
+
+/// Packs a particle's cell in the tree, or a voxel, into one word.
+///
+/// From the top: 36 bits Morton code of a finest cell, 4 bits rise (levels above the finest), 24 bits particle index. A
+/// voxel's code is that of the first finest cell inside it, so that pre-order of voxels is the order of (code,
+/// descending rise).
+class CellEntry {
+ public:
+    static constexpr std::uint32_t maximumIndex = (1u << 24) - 1;
+
+    CellEntry() = default;
+    explicit CellEntry(std::uint64_t word) : word_(word) {}
+    CellEntry(std::uint64_t code, int rise, std::uint32_t index)
+        : word_(code << 28 | static_cast<std::uint64_t>(rise) << 24 | index) {}
+
+    [[nodiscard]] std::uint64_t code() const { return word_ >> 28; }
+    [[nodiscard]] int rise() const { return static_cast<int>(word_ >> 24 & 0xf); }
+    [[nodiscard]] std::uint32_t index() const { return static_cast<std::uint32_t>(word_ & maximumIndex); }
+    [[nodiscard]] std::uint64_t word() const { return word_; }
+    /// Code of the voxel that contains the particle.
+    [[nodiscard]] std::uint64_t voxelCode() const { return code() >> 3 * rise() << 3 * rise(); }
+    /// Identifies the voxel: equal for all of its particles, and ascending in pre-order.
+    [[nodiscard]] std::uint64_t place() const { return voxelCode() << 4 | static_cast<std::uint64_t>(15 - rise()); }
+    bool operator==(const CellEntry&) const = default;
+
+ private:
+    std::uint64_t word_;
+};
+
+// --- Nodes in memory: the eight children of a node are contiguous in one cache line; finest cells need no nodes
+
+/// One node. A node exists if it has a voxel, children or both.
+///
+/// Children that are finest cells have only a voxel. With voxels numbered in pre-order, the children's voxels follow
+/// the node's own, so one bit per child suffices: the node has a family instead of a block.
+struct NodeSlot {
+    /// Marks a family. The lowest eight bits then flag the children; ownVoxelFlag is set if the node has a voxel
+    /// too.
+    static constexpr std::uint32_t familyFlag = 1u << 31, ownVoxelFlag = 1u << 8;
+
+    std::uint32_t children = 0;  ///< index of the children's block, 0: none (block 0 is the root's); or a family
+    std::uint32_t voxel = 0;     ///< index of the voxel + 1; 0: none. For a family: its first voxel, the node's own or
+                                 ///< a child's
+
+    [[nodiscard]] bool exists() const { return (children | voxel) != 0; }
+    [[nodiscard]] bool hasFamily() const { return (children & familyFlag) != 0; }
+    [[nodiscard]] bool hasVoxel() const { return hasFamily() ? (children & ownVoxelFlag) != 0 : voxel != 0; }
+    /// Number of children in a family.
+    [[nodiscard]] std::uint32_t familySize() const { return static_cast<std::uint32_t>(std::popcount(children & 255)); }
+    /// The node of a family's child; empty if there is none.
+    [[nodiscard]] NodeSlot familyChild(std::size_t octant) const {
+        if ((children >> octant & 1) == 0) return {};
+        const std::uint32_t before = children & ((1u << octant) - 1);
+        return {0, voxel + (hasVoxel() ? 1 : 0) + static_cast<std::uint32_t>(std::popcount(before))};
+    }
+};
+
+/// The children of one node by octant, 4·x + 2·y + z. Block 0 contains the root's children.
+struct alignas(64) NodeBlock {
+    std::array<NodeSlot, 8> slots;
+
+    /// A child of a node whose children are in a block or a family.
+    [[nodiscard]] static NodeSlot childOf(const NodeSlot& node, std::size_t octant, const NodeBlock* blocks) {
+        return node.hasFamily() ? node.familyChild(octant) : blocks[node.children].slots[octant];
+    }
+};
+static_assert(sizeof(NodeBlock) == 64);
+
+/// An array that keeps its memory between frames and grows on demand. Owns: its elements, booked on a ledger. Growth
+/// reserves extra capacity, so that a steady load does not allocate.
+template <typename T>
+class ReusedArray {
+ public:
+    explicit ReusedArray(MemoryAccount& account) : memory_(account) {}
+
+    /// Space for `count` elements of unspecified value; growth discards the old contents.
+    T* hold(std::size_t count) {
+        if (memory_.size() < count) {
+            const std::size_t size = count + count / 8;
+            memory_.clear();
+            memory_.shrink_to_fit();
+            memory_.resize(size);
+        }
+        return memory_.data();
+    }
+    /// Space for `count` elements; keeps the first `used`.
+    T* extend(std::size_t count, std::size_t used) {
+        if (memory_.size() < count) {
+            memory_.resize(used);
+            memory_.resize(count + count / 2);
+        }
+        return memory_.data();
+    }
+    [[nodiscard]] T* data() { return memory_.data(); }
+    [[nodiscard]] const T* data() const { return memory_.data(); }
+    [[nodiscard]] std::size_t size() const { return memory_.size(); }
+
+ private:
+    LedgerVector<T> memory_;
+};
 
 class Octree {
  public:
@@ -83,7 +184,7 @@ class Octree {
         return static_cast<std::uint32_t>(blockCount_++);
     }
     /// Returns the node `rise` levels above the finest that contains the finest cell `code`, and adds missing nodes on
-    /// its path. Not allowed below a family (node_block.h). May relocate all blocks.
+    /// its path. Not allowed below a family (NodeSlot). May relocate all blocks.
     NodeSlot& makeNode(std::uint64_t code, int rise) {
         std::uint32_t block = 0;
         int shift = 3 * (depth_ - 1);
@@ -121,6 +222,18 @@ class Octree {
     ReusedArray<double> masses_;
     std::size_t blockCount_ = 0, voxelCount_ = 0, massCount_ = 0;
     int depth_ = minimumDepth;
+};
+
+/// All builders return the same voxels in the same order.
+class DUSTBENCH_API OctreeBuilder {
+ public:
+    virtual ~OctreeBuilder();
+    /// Returns the number of particles outside the world, which belong to no voxel. Throws SimulationError if a
+    /// position is NaN.
+    virtual std::int64_t build(const Puffs& store, const Lattice& lattice, const OctreeSettings& settings,
+                               Octree& tree) = 0;
+    /// Bytes of the structure with the voxels of `tree`, the last one built, without temporary memory of the build.
+    [[nodiscard]] virtual std::size_t structureBytes(const Octree& tree) const { return tree.bytes(); }
 };
 
 }  // namespace dustbench::octree

@@ -10,7 +10,8 @@
 #include "methods/contract/volume.h"
 #include "methods/kit/maths/transmittance.h"
 #include "methods/kit/octree/cell_kernel.h"
-#include "methods/kit/octree/octree_world.h"
+#include "methods/kit/octree/lattice.h"
+#include "methods/kit/octree/particle_cells.h"
 #include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::octree {
@@ -91,6 +92,17 @@ double massOf(const Puffs& dust, std::size_t i) {
 }
 
 }  // namespace
+
+Puffs VoxelOpacity::of(const Puffs& dust, const Lattice& lattice, const OctreeSettings& settings) {
+    const ParticlePlace place(dust, lattice, settings);
+    radii_.resize(dust.size());
+    for (std::size_t i = 0; i < dust.size(); ++i)
+        radii_[i] = static_cast<float>(lattice.cellEdgeMetres(place.level(i))) / edgePerRadius;
+    Puffs shown = dust;
+    shown.opacity = opacities_.of(dust);
+    shown.radius = radii_;
+    return shown;
+}
 
 OctreeBuilder::~OctreeBuilder() = default;
 

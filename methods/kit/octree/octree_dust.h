@@ -12,14 +12,16 @@
 #include <span>
 
 #include "methods/contract/method.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/draw/age_opacity.h"
 #include "methods/kit/draw/billboards.h"
 #include "methods/kit/draw/cubes.h"
 #include "methods/kit/draw/depth_sort.h"
-#include "methods/kit/octree/cross_fade.h"
-#include "methods/kit/octree/octree_builder.h"
+#include "methods/kit/octree/lattice.h"
+#include "methods/kit/octree/octree.h"
 #include "methods/kit/octree/octree_march.h"
+#include "methods/kit/octree/octree_settings.h"
 #include "methods/kit/octree/voxel_cloud.h"
-#include "methods/kit/octree/voxel_opacity.h"
 
 namespace dustbench::octree {
 
@@ -60,6 +62,24 @@ DUSTBENCH_API void declareLayout(MethodInfo& info, const std::string& help);
 
 /// Edge of a voxel per radius of the billboard that shows it.
 [[nodiscard]] DUSTBENCH_API float edgesPerDrawnRadius(Render render);
+
+/// Dust whose voxels have an opacity by age alone, independent of their size: Carr2006, 3.2.
+///
+/// A particle's opacity is α by age. Its radius is that of a puff whose mass, spread over its voxel, has the optical
+/// depth τ = −ln(1 − α) along an axis: τ·2π(r/2)² = τ·edge². All other code works as for any dust. Owns two columns,
+/// booked on a ledger.
+class VoxelOpacity {
+ public:
+    VoxelOpacity(MemoryLedger& ledger, double youngOpacity)
+        : opacities_(ledger.account("opacities by age"), youngOpacity), radii_(ledger.account("opacities by age")) {}
+
+    /// The same particles with new opacities and radii, in the same voxels; valid until the next call.
+    Puffs of(const Puffs& dust, const Lattice& lattice, const OctreeSettings& settings);
+
+ private:
+    draw::AgeOpacity opacities_;
+    LedgerVector<float> radii_;
+};
 
 /// Optical masses after a frame, m².
 struct ShownMass {

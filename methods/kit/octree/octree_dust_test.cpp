@@ -1,5 +1,3 @@
-#include "methods/kit/octree/octree_dust.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +12,8 @@
 #include "methods/contract/errors.h"
 #include "methods/contract/volume.h"
 #include "methods/kit/octree/map_builder_test_tree.h"
-#include "methods/kit/octree/particle_place.h"
+#include "methods/kit/octree/octree_dust.h"
+#include "methods/kit/octree/particle_cells.h"
 #include "methods/kit/testing/test_moment.h"
 
 namespace dustbench::octree {
@@ -356,6 +355,32 @@ TEST(OctreeDust, CrossFadingLeavesLessToPop) {
         }
     }
     EXPECT_LT(std::sqrt(jump[true]), 0.4 * std::sqrt(jump[false]));
+}
+
+TEST(OctreeSettings, RefusesMoreLevelsThanThereAre) {
+    MethodInfo info;
+    declareDust(info);
+    ParameterValues values(info.parameters);
+    values.set("depth", "5");
+    values.set("levels", "6");
+    EXPECT_THROW((void)dustSettings(values), InputError);
+    values.set("levels", "5");
+    EXPECT_EQ(dustSettings(values).tree.levels, 5);
+}
+
+TEST(OctreeDust, HasAPresetOfThePaper) {
+    MethodInfo info;
+    declareDust(info);
+    declareLayout(info, "how");
+    ParameterValues values(info.parameters);
+    EXPECT_EQ(values.choice("layout"), "faithful");
+    EXPECT_EQ(dustSettings(values).opacity, draw::OpacityFrom::dust);
+    values.set("mode", "paper");
+    EXPECT_EQ(values.choice("layout"), "paper");
+    const DustSettings settings = dustSettings(values);
+    EXPECT_EQ(settings.opacity, draw::OpacityFrom::age);
+    EXPECT_EQ(settings.render, Render::circles);
+    EXPECT_EQ(settings.sort, draw::SortKind::quicksort);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 // Axes along which the ray runs backwards are mirrored, so that it always runs towards higher cells. Its position is
 // the finest cell that contains it: steps move from cell to cell in integers, and each advances along one axis without
 // moving back along another, so that rounding can neither skip a cell nor cause an endless loop.
-layout(binding = 1) uniform sampler2D slots;  // octree_march_tree.h, row after row
+layout(binding = 1) uniform sampler2D slots;  // octree_march.h, row after row
 #ifdef COLOURED
 layout(binding = 2) uniform sampler2D colours;
 #else

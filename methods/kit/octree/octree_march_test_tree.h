@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "methods/kit/octree/octree_march_tree.h"
+#include "methods/kit/octree/octree_march.h"
 
 namespace dustbench::octree {
 

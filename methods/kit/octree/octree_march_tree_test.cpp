@@ -1,4 +1,4 @@
-#include "methods/kit/octree/octree_march_tree.h"
+#include "methods/kit/octree/octree_march.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include "methods/kit/memory/memory_ledger.h"
 #include "methods/kit/octree/lattice.h"
 #include "methods/kit/octree/octree.h"
-#include "methods/kit/octree/voxel_rule.h"
+#include "methods/kit/octree/octree_settings.h"
 
 namespace dustbench::octree {
 
@@ -45,6 +45,31 @@ struct VoxelCloud {
     LedgerVector<float> age;
     LedgerVector<float> red, green, blue;  ///< empty if all share one colour
     LedgerVector<draw::NoisePlace> noise;  ///< that of the representing particle, at the voxel's centre; empty if off
+};
+
+/// Cross-fades voxels between frames: a voxel's mass follows that of the octree with a time constant, so that no voxel
+/// pops in or out.
+///
+///     m ← m + (1 − exp(−Δt/T))·(m_octree − m)
+///
+/// Owns the faded voxels, booked on a ledger. Threads: one.
+/// Source: Carr2006, 5 (future work: "interpolating or cross-fading between frames"). Departs: the formula is ours.
+class CrossFade {
+ public:
+    CrossFade(MemoryLedger& ledger, double timeConstantSeconds);
+
+    /// Advances by one frame towards `target`, whose places must ascend. Returns the voxels to draw, in the same order.
+    /// The first call returns a copy of the target. If the world has moved, voxels outside of it are dropped.
+    const VoxelCloud& follow(const VoxelCloud& target, double stepSeconds);
+
+ private:
+    void moveTo(const Lattice& lattice);
+    void append(const VoxelCloud& from, std::size_t i, float mass);
+
+    double timeConstantSeconds_;
+    bool first_ = true;
+    VoxelCloud shown_, next_;
+    LedgerVector<std::uint32_t> order_;
 };
 
 }  // namespace dustbench::octree

@@ -11,7 +11,7 @@
 
 #include "methods/kit/draw/billboards.h"
 #include "methods/kit/draw/depth_sort.h"
-#include "methods/kit/raycast/grid_renderer.h"
+#include "methods/kit/raycast/grid_raycast.h"
 
 namespace dustbench::raycast {
 

@@ -11,8 +11,8 @@
 #include "methods/kit/raycast/brick_map.h"
 #include "methods/kit/raycast/light_volume.h"
 #include "methods/kit/raycast/padded_cells.h"
-#include "methods/kit/raycast/pixel_rays.h"
 #include "methods/kit/raycast/raycast_settings.h"
+#include "methods/kit/raycast/shown_grid.h"
 
 namespace dustbench::raycast {
 

@@ -21,7 +21,7 @@ uniform float opaqueDepth;  // where rays end
 
 layout(location = 0) out vec4 colour;
 
-// See pixel_rays.h.
+// See shown_grid.h.
 float jitter() {
 #ifdef JITTER
     uvec2 pixel = uvec2(gl_FragCoord.xy);

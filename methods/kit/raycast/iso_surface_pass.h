@@ -9,7 +9,7 @@
 #include "methods/kit/gpu/framebuffer.h"
 #include "methods/kit/gpu/program.h"
 #include "methods/kit/gpu/vertex_array.h"
-#include "methods/kit/raycast/grid_renderer.h"
+#include "methods/kit/raycast/grid_raycast.h"
 
 namespace dustbench::raycast {
 

@@ -1,4 +1,4 @@
-// Settings for drawing a grid.
+// Settings for drawing a grid, and the parameters that set them: processor, technique and resolution.
 //
 // Units: cells where stated, extinction per metre. Colours: linear RGB. Source: Senger2009, ch. 2 and 4.
 #pragma once
@@ -6,6 +6,8 @@
 #include <glm/glm.hpp>
 
 #include "methods/contract/choices.h"
+#include "methods/contract/parameters.h"
+#include "methods/contract/scene.h"
 #include "methods/kit/raycast/transfer_function.h"
 
 namespace dustbench::raycast {
@@ -59,5 +61,16 @@ DUSTBENCH_API void check(const RaycastSettings& settings);
 
 /// The optical depth at which a ray may end; infinite if it never may.
 [[nodiscard]] DUSTBENCH_API float opaqueDepth(const RaycastSettings& settings);
+
+/// Declares `backend`, `renderer`, `iso_density`, `filter`, `step_cells`, `jitter`, `stop_alpha`, `skip_empty` and
+/// `shadow_cells`.
+DUSTBENCH_API void declareRaycast(ParameterSet& parameters);
+
+/// `shadowCells`: used if the parameter is −1.
+[[nodiscard]] DUSTBENCH_API RaycastSettings raycastSettings(const ParameterValues& values, int shadowCells);
+
+/// Settings for dust lit by the scene's lights (scene::Lights::onDust): it shadows itself. Throws InputError for a
+/// renderer without rays, to which the phase function cannot be applied.
+DUSTBENCH_API void lightDust(RaycastSettings& settings, const scene::Scene& scene);
 
 }  // namespace dustbench::raycast

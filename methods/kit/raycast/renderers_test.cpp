@@ -1,5 +1,9 @@
-// Tests the other renderers of a grid against the march, and the light volume.
+// Tests the renderers of a grid against the march and closed forms, the light volume, and pictures of several grids.
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
 
 #include "methods/kit/raycast/iso_surface.h"
 #include "methods/kit/raycast/raycast_test_canvas.h"
@@ -112,6 +116,137 @@ TEST(LightVolume, OfAHomogeneousBoxIsTheAnalyticOne) {
             EXPECT_NEAR(light.values()[static_cast<std::size_t>(i)], std::exp(-0.56 * length), 1e-4) << i;
         }
     }
+}
+
+/// Closed forms of a filter's value at a position in cells, for a layer of cells with edges of 1.
+double filtered(const TestGrid& layer, Filter filter, const glm::dvec2& place) {
+    const auto at = [&](int x, int y) {
+        const glm::ivec2 cell = glm::clamp(glm::ivec2(x, y), glm::ivec2(0), glm::ivec2(layer.cells) - 1);
+        return static_cast<double>(layer.density[static_cast<std::size_t>(cell.x + layer.cells.x * cell.y)]);
+    };
+    if (filter == Filter::nearest) return at(static_cast<int>(place.x), static_cast<int>(place.y));
+    const glm::dvec2 low = glm::floor(place - 0.5);
+    double sum = 0;
+    for (int j = -1; j <= 2; ++j)
+        for (int i = -1; i <= 2; ++i) {
+            const glm::dvec2 away = glm::abs(place - 0.5 - low - glm::dvec2(i, j));
+            const auto weight = [&](double d) {
+                if (filter == Filter::linear) return std::max(1 - d, 0.0);
+                return d < 1 ? 2.0 / 3 - d * d + d * d * d / 2 : std::pow(std::max(2 - d, 0.0), 3) / 6;
+            };
+            sum += weight(away.x) * weight(away.y) * at(static_cast<int>(low.x) + i, static_cast<int>(low.y) + j);
+        }
+    return sum;
+}
+
+class FiltersOn : public ::testing::TestWithParam<Backend> {};
+INSTANTIATE_TEST_SUITE_P(Backends, FiltersOn, ::testing::Values(Backend::cpu, Backend::gl),
+                         [](const auto& test) { return test.param == Backend::cpu ? "Cpu" : "Gl"; });
+
+TEST_P(FiltersOn, ShowALayerOfCellsByTheirClosedForms) {
+    Canvas canvas;
+    canvas.view.camera.verticalFieldOfView = 0.05;  // each ray stays at one position of the layer
+    canvas.lookFrom({0, 0, 200}, {0, 0, -1});
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> share(0, 1);
+    const TestGrid layer({12, 10, 1}, 1, {-6, -5, -0.5}, [&](const glm::dvec3&) { return share(random); });
+    for (const Filter filter : {Filter::nearest, Filter::linear, Filter::cubic}) {
+        RaycastSettings settings = settingsOf(GetParam());
+        settings.filter = filter;
+        const pictures::Image image = canvas.picture(layer, settings);
+        int seen = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) {
+                const glm::dvec3 along(canvas.view.rayDirection(x + 0.5, y + 0.5));
+                const glm::dvec2 place = 200 / -along.z * glm::dvec2(along) + glm::dvec2(6, 5);
+                const glm::dvec2 inCell = glm::fract(place);
+                // The layer's front and back are half a cell away, and a ray crosses up to 0.03 of a cell meanwhile.
+                if (place.x < 0 || place.y < 0 || place.x > 12 || place.y > 10 ||
+                    glm::any(glm::lessThan(glm::min(inCell, 1.0 - inCell), glm::dvec2(0.02))))
+                    continue;
+                ++seen;
+                const double alpha = -std::expm1(-filtered(layer, filter, place) / -along.z);
+                ASSERT_NEAR(image.at(x, y).a, alpha, filter == Filter::nearest ? 1e-5 : 2e-3) << x << ',' << y;
+            }
+        EXPECT_GT(seen, 4000);
+    }
+}
+
+/// `cells` cells of `grid` from `first` on, with a layer of empty cells around them; cells beyond the grid are also
+/// empty.
+TestGrid partOf(const TestGrid& grid, const glm::ivec3& first, const glm::ivec3& cells, int rim) {
+    TestGrid part(cells + 2 * rim, grid.spacingMetres, grid.originMetres + grid.spacingMetres * glm::dvec3(first - rim),
+                  [](const glm::dvec3&) { return 0.0; });
+    for (int z = 0; z < cells.z; ++z)
+        for (int y = 0; y < cells.y; ++y)
+            for (int x = 0; x < cells.x; ++x) {
+                const glm::ivec3 from = first + glm::ivec3(x, y, z), to = glm::ivec3(x, y, z) + rim;
+                const auto index = [](const glm::ivec3& at, const glm::ivec3& size) {
+                    return static_cast<std::size_t>(at.x + size.x * (at.y + size.y * at.z));
+                };
+                part.density[index(to, part.cells)] = grid.density[index(from, grid.cells)];
+            }
+    return part;
+}
+
+TEST(SeveralGrids, WithEmptyRimsShowWhatOneGridShows) {
+    Canvas canvas;
+    canvas.setWall(5.2, 50);
+    const TestGrid whole = testPlume({40, 24, 24});
+    for (const glm::dvec3& eye : {glm::dvec3(3, 2, 4), glm::dvec3(-0.35, 0.2, 6)}) {
+        canvas.lookFrom(eye, glm::dvec3(-0.3, 0, 0) - eye);
+        for (const Backend backend : {Backend::cpu, Backend::gl})
+            for (const Renderer renderer : {Renderer::raycast, Renderer::slices, Renderer::splat})
+                for (const Filter filter : {Filter::linear, Filter::cubic}) {
+                    if (backend == Backend::cpu && renderer != Renderer::raycast) continue;
+                    RaycastSettings settings = settingsOf(backend);
+                    settings.renderer = renderer;
+                    settings.filter = filter;
+                    settings.extinctionPerMetre = 3;
+                    settings.stepCells = 0.1;
+                    const int rim = filter == Filter::cubic ? 2 : 1;
+                    MemoryLedger ledger;
+                    GridRaycast left(Canvas::device(), settings, canvas.lights, ledger);
+                    GridRaycast right(Beside(), left);
+                    left.upload(partOf(whole, {0, 0, 0}, {17, 24, 24}, rim).shown());
+                    right.upload(partOf(whole, {17, 0, 0}, {23, 24, 24}, rim).shown());
+                    const pictures::Image image = canvas.TestCanvas::picture([&](const gpu::Layer& layer) {
+                        SceneDepthCopy depth(layer);
+                        left.draw(canvas.view, layer, depth);
+                        right.draw(canvas.view, layer, depth);
+                    });
+                    const pictures::Image expected = canvas.picture(whole, settings);
+                    EXPECT_GT(meanAlpha(expected), 0.02);
+                    // Splats of one picture are sorted, those of two grids are not; equal colours hide the difference.
+                    EXPECT_LT(maximumDifference(image, expected), 4e-3)
+                        << static_cast<int>(renderer) << " filter " << static_cast<int>(filter) << " eye " << eye.x;
+                }
+    }
+}
+
+TEST(SeveralGrids, AreShownAgainElsewhereAndThinner) {
+    Canvas canvas;
+    canvas.setWall(6, 50);
+    canvas.lookFrom({3, 2, 4}, {-3, -2, -4});
+    TestGrid grid = testPlume({40, 24, 24});
+    for (const Backend backend : {Backend::cpu, Backend::gl})
+        for (const Renderer renderer : {Renderer::raycast, Renderer::slices, Renderer::splat}) {
+            if (backend == Backend::cpu && renderer != Renderer::raycast) continue;
+            RaycastSettings settings = settingsOf(backend);
+            settings.renderer = renderer;
+            settings.extinctionPerMetre = 3;
+            MemoryLedger ledger;
+            GridRaycast raycast(Canvas::device(), settings, canvas.lights, ledger);
+            raycast.upload(grid.shown());
+            raycast.change({-2.9, -1.5, -1.2}, 0.25f);
+            const pictures::Image image =
+                canvas.TestCanvas::picture([&](const gpu::Layer& layer) { raycast.draw(canvas.view, layer); });
+            TestGrid moved = grid;
+            moved.originMetres = {-2.9, -1.5, -1.2};
+            for (float& density : moved.density) density *= 0.25f;
+            EXPECT_LT(maximumDifference(image, canvas.picture(moved, settings)), 1e-5) << static_cast<int>(renderer);
+            EXPECT_GT(maximumDifference(image, canvas.picture(grid, settings)), 0.05);
+        }
 }
 
 }  // namespace

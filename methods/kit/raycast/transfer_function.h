@@ -1,7 +1,8 @@
-// Maps the freshness of fire to emitted light and extinction.
+// Maps the freshness of fire to emitted light and extinction, by a table or by Planck's law.
 //
 // Both are linear between rows and constant beyond the first and the last. Light is that emitted by a thick cloud of
-// this freshness, in linear RGB; it adds to the light that the cloud reflects. Source: Senger2009, ch. 3; Crane2007.
+// this freshness, in linear RGB; it adds to the light that the cloud reflects.
+// Source: Senger2009, ch. 3 and Fig. 3; Crane2007; Planck1901; Wyman2013 (the eye's response, as sums of Gaussians).
 #pragma once
 
 #include <filesystem>
@@ -33,8 +34,22 @@ class DUSTBENCH_API TransferFunction {
     std::vector<Row> rows_;
 };
 
+/// CIE 1931 tristimulus values XYZ of a black body's spectral radiance, up to a constant factor.
+[[nodiscard]] glm::dvec3 blackBody(double kelvin);
+
+/// Freshness gives the temperature of a black body, which gives colour and luminance.
+struct PlanckFire {
+    double coldKelvin = 700;                            ///< at a reaction of 0
+    double hotKelvin = 1800;                            ///< at a reaction of 1; linear in between
+    double luminance = 3;                               ///< Rec. 709 luminance of a thick cloud at `hotKelvin`
+    float burntExtinction = 1, freshExtinction = 0.4f;  ///< factors at a reaction of 0 and of 1
+};
+
+/// Channels outside of the colour space, as blue is below 1,900 K, are 0.
+[[nodiscard]] TransferFunction transferFunctionOf(const PlanckFire& fire);
+
 /// Reads `[[row]]` tables with `reaction`, `emission = [red, green, blue]` and `extinction`, or a table `[planck]`
-/// (planck.h). Throws InputError with file and line.
+/// (PlanckFire). Throws InputError with file and line.
 [[nodiscard]] DUSTBENCH_API TransferFunction loadTransferFunction(const std::filesystem::path& file);
 
 }  // namespace dustbench::raycast

@@ -1,4 +1,5 @@
-// Position and time of a grid in a file, and the conditions for grids of one series.
+// Grids as stored in a file: position and time, the values of a volume or of a vector field, and the conditions for
+// grids of one series.
 //
 // Units and frame: the file's own.
 #pragma once
@@ -7,7 +8,9 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dustbench::volumes {
@@ -58,5 +61,29 @@ void forEachRow(const GridPlace& inner, const GridPlace& outer, const Take& take
             take(inner.indexOf({0, y, z}), outer.indexOf(first + glm::ivec3(0, y, z)),
                  static_cast<std::size_t>(inner.cells.x));
 }
+
+/// Density on a grid, with further fields of the smoke.
+struct VolumeGrid : GridPlace {
+    std::vector<float> density;
+    std::vector<float> temperature;   ///< empty: none
+    std::vector<glm::vec3> velocity;  ///< empty: none
+};
+
+struct VectorGrid : GridPlace {
+    std::vector<glm::vec3> values;
+};
+
+/// Receives a volume value by value while it is read, so that the reader need not store all of it.
+class VolumeSink {
+ public:
+    virtual ~VolumeSink() = default;
+
+    /// Called once, before the fields.
+    virtual void begin(const GridPlace& place) = 0;
+    /// `density`, `temperature` or `velocity`, in this order. Returns false to skip the field's values.
+    virtual bool beginField(std::string_view field) = 0;
+    /// The field's next values: cell by cell, x fastest; three per cell for a velocity.
+    virtual void take(std::span<const float> numbers) = 0;
+};
 
 }  // namespace dustbench::volumes

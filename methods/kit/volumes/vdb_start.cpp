@@ -1,4 +1,4 @@
-// Separate from vdb_pipe.cpp, so that tests/fuzz/openvdb can start the reader in a different way.
+// Separate from vdb_process.cpp, so that tests/fuzz/openvdb can start the reader in a different way.
 #include <fcntl.h>
 #include <spawn.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 
 #include "methods/kit/files/loaded_library.h"
 #include "methods/kit/volumes/vdb_message.h"
-#include "methods/kit/volumes/vdb_pipe.h"
+#include "methods/kit/volumes/vdb_process.h"
 
 namespace dustbench::volumes {
 namespace {

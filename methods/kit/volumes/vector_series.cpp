@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "methods/contract/errors.h"
-#include "methods/kit/volumes/vector_file.h"
+#include "methods/kit/volumes/volume_file.h"
 
 namespace dustbench::volumes {
 namespace {

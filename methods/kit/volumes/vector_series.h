@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "methods/kit/volumes/vector_grid.h"
+#include "methods/kit/volumes/grid_place.h"
 
 namespace dustbench::volumes {
 

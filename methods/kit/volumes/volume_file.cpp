@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "methods/contract/errors.h"
@@ -114,6 +115,37 @@ class SoundPlaces final : public VolumeSink {
     const std::filesystem::path& file_;
 };
 
+// --- Vectors
+
+VectorGrid readVtiVectors(const std::filesystem::path& file, const std::string& field) {
+    const VtiFile vti(file);
+    const std::array<WantedField, 1> wanted{{{"velocity", 3, {field}, true, false}}};
+    const VtiFields fields(vti, wanted, file);
+    VectorGrid grid;
+    static_cast<GridPlace&>(grid) = fields.place();
+    const std::vector<float> numbers = fields.numbersOf(fields.chosen().front());
+    grid.values.reserve(numbers.size() / 3);
+    for (std::size_t i = 0; i < numbers.size(); i += 3)
+        grid.values.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+    return grid;
+}
+
+VectorGrid readSparseVectors(const std::filesystem::path& file, const std::string& field) {
+    requireFile(file);
+    VectorGrid grid;
+    if (const std::string why = readVdb(file, field, grid); !why.empty()) throw refused(file, why);
+    return grid;
+}
+
+void requireFinite(const VectorGrid& grid, const std::filesystem::path& file) {
+    for (const double number :
+         {grid.spacing, grid.origin.x, grid.origin.y, grid.origin.z, grid.timeSeconds.value_or(0)})
+        if (!std::isfinite(number)) throw refused(file, "its position, spacing or time is not a number");
+    for (const glm::vec3& v : grid.values)
+        if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+            throw refused(file, "it has a vector that is not a number");
+}
+
 }  // namespace
 
 void requireDensity(float density, float maximum, const std::filesystem::path& file, bool clampsDensity) {
@@ -133,6 +165,14 @@ void streamVolume(const std::filesystem::path& file, const VolumeFields& fields,
 VolumeGrid readVolume(const std::filesystem::path& file, const VolumeFields& fields) {
     VolumeGrid grid = isVti(file) ? readVti(file, fields) : readSparse(file, fields);
     requireSound(grid, file, fields.clampsDensity);
+    return grid;
+}
+
+VectorGrid readVectors(const std::filesystem::path& file, const std::string& field) {
+    if (file.extension() != ".vti" && file.extension() != ".vdb")
+        throw refused(file, "expected a file that ends in .vti or .vdb");
+    VectorGrid grid = file.extension() == ".vti" ? readVtiVectors(file, field) : readSparseVectors(file, field);
+    requireFinite(grid, file);
     return grid;
 }
 

@@ -1,11 +1,11 @@
-// Reads the density of one file, `.vti`, `.vdb` or `.nvdb`, from any program.
+// Reads the density of one file, `.vti`, `.vdb` or `.nvdb`, from any program, or its field of vectors.
 #pragma once
 
 #include <filesystem>
+#include <string>
 
-#include "methods/kit/volumes/volume_grid.h"
+#include "methods/kit/volumes/grid_place.h"
 #include "methods/kit/volumes/volume_setup.h"
-#include "methods/kit/volumes/volume_sink.h"
 
 namespace dustbench::volumes {
 
@@ -20,5 +20,9 @@ DUSTBENCH_API void streamVolume(const std::filesystem::path& file, const VolumeF
 
 /// Throws InputError unless `density` is 0 or more, apart from small overshoots relative to the highest, `maximum`.
 DUSTBENCH_API void requireDensity(float density, float maximum, const std::filesystem::path& file, bool clampsDensity);
+
+/// `.vti`: cell data of three components, time from the field data `TimeValue`; `.vdb`: a grid of vectors, time from
+/// its metadata `time_s`. Throws InputError with the file and the fault in one line.
+[[nodiscard]] DUSTBENCH_API VectorGrid readVectors(const std::filesystem::path& file, const std::string& field);
 
 }  // namespace dustbench::volumes

@@ -9,7 +9,6 @@
 
 #include "methods/kit/files/input_log.h"
 #include "methods/kit/testing/test_folder.h"
-#include "methods/kit/volumes/vector_file.h"
 #include "methods/kit/volumes/volume_file.h"
 
 namespace dustbench::volumes {

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "methods/kit/testing/test_folder.h"
-#include "methods/kit/volumes/vector_file.h"
 #include "methods/kit/volumes/volume_file.h"
 
 namespace dustbench::volumes {

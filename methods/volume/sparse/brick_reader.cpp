@@ -8,8 +8,8 @@
 
 #include "methods/kit/files/limits.h"
 #include "methods/kit/files/printable.h"
-#include "methods/kit/volumes/series_places.h"
 #include "methods/kit/volumes/volume_file.h"
+#include "methods/kit/volumes/volume_series.h"
 
 namespace dustbench::volume {
 namespace {

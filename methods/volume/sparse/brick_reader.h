@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/volumes/grid_place.h"
 #include "methods/kit/volumes/volume_setup.h"
-#include "methods/kit/volumes/volume_sink.h"
 #include "methods/volume/sparse/nano_tree.h"
 
 namespace dustbench::volume {

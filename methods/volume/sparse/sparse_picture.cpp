@@ -12,7 +12,7 @@
 #include "methods/kit/files/limits.h"
 #include "methods/kit/gpu/draw_call.h"
 #include "methods/kit/parallel/for_each_block.h"
-#include "methods/kit/raycast/grid_renderer.h"
+#include "methods/kit/raycast/grid_raycast.h"
 #include "methods/kit/raycast/raycast_settings.h"
 #include "methods/volume/sparse/nano_tree.h"
 #include "methods/volume/sparse/nano_walk.h"

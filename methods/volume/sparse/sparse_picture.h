@@ -12,9 +12,9 @@
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/layer.h"
 #include "methods/kit/gpu/vertex_array.h"
-#include "methods/kit/raycast/optics_on_gpu.h"
-#include "methods/kit/raycast/packet_composite.h"
-#include "methods/kit/raycast/pixel_rays.h"
+#include "methods/kit/raycast/cpu_renderer.h"
+#include "methods/kit/raycast/grid_on_gpu.h"
+#include "methods/kit/raycast/shown_grid.h"
 #include "methods/volume/sparse/nano_tree.h"
 #include "methods/volume/sparse/sparse_march.h"
 

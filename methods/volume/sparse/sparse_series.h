@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "methods/kit/volumes/series_places.h"
+#include "methods/kit/volumes/volume_series.h"
 #include "methods/volume/sparse/brick_reader.h"
 #include "methods/volume/sparse/nano_tree.h"
 

@@ -30,9 +30,7 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/volumes/openvdb/vdb_reader.h"
-#include "methods/kit/volumes/vdb_pipe.h"
 #include "methods/kit/volumes/vdb_process.h"
-#include "methods/kit/volumes/vector_file.h"
 #include "methods/kit/volumes/volume_file.h"
 #include "methods/volume/sparse/brick_reader.h"
 #include "tests/fuzz/mutation.h"

@@ -9,8 +9,8 @@ cd "$(dirname "$0")/../../.."
 seed="${SEED:-$(date +%s)}"
 
 sources=(tests/fuzz/openvdb/vdb_mutants.cpp methods/contract/errors.cpp
-    methods/kit/files/{input_log,machine_error,printable,whole_text}.cpp
-    methods/kit/volumes/{grid_place,series_places,vdb_pipe,vdb_process,vector_file,volume_file,vti_file,vti_numbers,xml_scan}.cpp
+    methods/kit/files/{csv,data_folder,input_log,machine_error,matching_files,printable,shipped_folder,whole_text}.cpp
+    methods/kit/volumes/{file_series,grid_place,vdb_process,volume_file,volume_series,vti_fields,vti_file,vti_numbers,xml_scan}.cpp
     methods/volume/sparse/brick_reader.cpp
     methods/kit/volumes/openvdb/{vdb_reader,volume_answer,nano_volume_answer}.cpp tests/fuzz/nano_ball.cpp)
 g++ -std=c++20 -O1 -g1 -I. -DDUSTBENCH_API= -fsanitize=address,undefined -fno-sanitize-recover=all -isystem /usr/include/Imath \

@@ -17,7 +17,7 @@
 
 #include "methods/kit/gpu/queue_marks.h"
 #include "methods/kit/octree/gpu/gpu_octree.h"
-#include "methods/kit/octree/gpu/puff_upload.h"
+#include "methods/kit/octree/gpu/gpu_octree_dust.h"
 #include "methods/kit/octree/map_builder_test_tree.h"
 #include "methods/kit/particles/particle_store.h"
 

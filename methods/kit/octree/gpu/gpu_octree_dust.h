@@ -4,19 +4,38 @@
 // Source: Carr2006, 3.2 and 3.5.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
 #include "methods/contract/method.h"
+#include "methods/contract/volume.h"
 #include "methods/kit/draw/billboards.h"
 #include "methods/kit/draw/cubes.h"
 #include "methods/kit/draw/gpu_depth_order.h"
+#include "methods/kit/gpu/buffer.h"
+#include "methods/kit/gpu/device.h"
 #include "methods/kit/octree/gpu/gpu_march.h"
 #include "methods/kit/octree/gpu/gpu_octree.h"
-#include "methods/kit/octree/gpu/puff_upload.h"
 #include "methods/kit/octree/octree_dust.h"
 
 namespace dustbench::octree {
+
+/// Copies puffs from the CPU to GPU buffers of the form that dust on the GPU has. Owns the buffers, which grow by
+/// doubling. Threads: the OpenGL thread's.
+class DUSTBENCH_API PuffUpload {
+ public:
+    explicit PuffUpload(gpu::Device& device) : device_(device) {}
+
+    /// All columns except the velocities. Valid until the next call.
+    [[nodiscard]] const GpuPuffs& upload(const Puffs& dust);
+    [[nodiscard]] std::size_t bytes() const;
+
+ private:
+    gpu::Device& device_;
+    gpu::Buffer position_, life_, look_, serial_, colour_, tally_;
+    GpuPuffs puffs_;
+};
 
 /// True for `layout=gpu`: for MethodInfo::takesGpuDust.
 [[nodiscard]] DUSTBENCH_API bool isBuiltOnGpu(const ParameterValues& values);

@@ -14,7 +14,6 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/gpu/faulty_driver.h"
 #include "methods/kit/octree/gpu/gpu_octree_dust.h"
-#include "methods/kit/octree/gpu/puff_upload.h"
 #include "methods/kit/octree/map_builder_test_tree.h"
 #include "methods/kit/testing/test_moment.h"
 

@@ -1,4 +1,4 @@
-// Slots for the ray march (octree_march_tree.h), in textures: blocks, and extinctions summed from the root down.
+// Slots for the ray march (octree_march.h), in textures: blocks, and extinctions summed from the root down.
 layout(std430, binding = 2) restrict readonly buffer Ends { uint ends[]; };  // blocks of each voxel and all before it
 #ifdef COLOURED
 layout(std430, binding = 3) restrict readonly buffer Colours { float colours[]; };

@@ -1,4 +1,4 @@
-// Particles that share a voxel: which one represents it, and their optical mass (voxel_rule.h).
+// Particles that share a voxel: which one represents it, and their optical mass (octree_settings.h).
 layout(std430, binding = 4) restrict readonly buffer Lives { float lives[]; };
 layout(std430, binding = 5) restrict readonly buffer Looks { float looks[]; };
 layout(std430, binding = 6) restrict readonly buffer Serials { uvec2 serials[]; };

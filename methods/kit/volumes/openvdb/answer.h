@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "methods/kit/volumes/field_request.h"
 #include "methods/kit/volumes/vdb_message.h"
 
 namespace dustbench::volumes {
@@ -48,5 +49,20 @@ inline void putMessage(VdbMessage message, const std::vector<std::string>& ignor
     put(reason.data(), reason.size());
     finish();
 }
+
+// --- A volume: the density's box, and the other fields in the same cells
+
+/// The header that announces a field's values.
+[[nodiscard]] inline VdbColumn columnOf(const WantedField& field) {
+    VdbColumn column;
+    field.what.copy(column.name, sizeof column.name - 1);
+    column.components = field.components;
+    return column;
+}
+
+/// For a `.vdb`. Throws Refusal, or what OpenVDB throws.
+[[noreturn]] void answerVolume(const std::string& file, const VolumeFields& fields);
+/// For a `.nvdb`, likewise.
+[[noreturn]] void answerNanoVolume(const std::string& file, const VolumeFields& fields);
 
 }  // namespace dustbench::volumes

@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "methods/kit/volumes/openvdb/answer.h"
-#include "methods/kit/volumes/openvdb/volume_answer.h"
 
 namespace dustbench::volumes {
 namespace {

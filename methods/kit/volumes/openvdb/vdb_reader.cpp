@@ -21,7 +21,6 @@
 #include "methods/kit/files/limits.h"
 #include "methods/kit/volumes/openvdb/answer.h"
 #include "methods/kit/volumes/openvdb/dense_answer.h"
-#include "methods/kit/volumes/openvdb/volume_answer.h"
 #include "methods/kit/volumes/vdb_message.h"
 
 namespace dustbench::volumes {

@@ -1,4 +1,4 @@
-#include "methods/kit/volumes/openvdb/volume_answer.h"
+#include "methods/kit/volumes/openvdb/answer.h"
 
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
@@ -8,7 +8,6 @@
 #include <fstream>
 #include <vector>
 
-#include "methods/kit/volumes/openvdb/answer.h"
 #include "methods/kit/volumes/openvdb/dense_answer.h"
 
 namespace dustbench::volumes {

@@ -1,4 +1,4 @@
-#include "methods/grid_fluid/flow/source_reach.h"
+#include "methods/grid_fluid/flow/fluid_source.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "methods/grid_fluid/flow/fluid_settings.h"
+#include "methods/grid_fluid/flow/solver.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "methods/kit/octree/octree_world.h"
+#include "methods/kit/octree/lattice.h"
 
 #include <stdexcept>
 

@@ -1,4 +1,4 @@
-#include "methods/kit/octree/brick_assembly.h"
+#include "methods/kit/octree/brick_builder.h"
 
 #include <algorithm>
 
