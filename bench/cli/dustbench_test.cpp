@@ -20,7 +20,7 @@
 #include "methods/contract/registry.h"
 #include "methods/contract/stage_clock.h"
 #include "methods/kit/files/csv.h"
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 #include "methods/kit/particles/part_toml.h"
 
 namespace dustbench::cli {

@@ -19,9 +19,8 @@
 #include "methods/kit/files/csv.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/light/lit_puffs.h"
-#include "methods/kit/particles/part_change.h"
+#include "methods/kit/particles/part_list.h"
 #include "methods/kit/particles/particle_system.h"
-#include "methods/kit/particles/state_hash.h"
 
 namespace dustbench::bench {
 namespace {

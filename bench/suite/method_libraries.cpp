@@ -14,7 +14,7 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/library/build_fingerprint.h"
 #include "methods/kit/library/method_entry.h"
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;

@@ -6,7 +6,7 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/files/input_log.h"
 #include "methods/kit/library/build_fingerprint.h"
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 #include "methods/kit/testing/test_input_error.h"
 
 namespace dustbench::bench {

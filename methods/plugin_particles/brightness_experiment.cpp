@@ -8,7 +8,7 @@
 #include "methods/kit/draw/read_back.h"
 #include "methods/kit/findings/findings.h"
 #include "methods/kit/maths/philox.h"
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 #include "methods/kit/particles/particle_store.h"
 #include "methods/plugin_particles/system_picture.h"
 

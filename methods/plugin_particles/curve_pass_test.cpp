@@ -4,11 +4,11 @@
 #include <cmath>
 #include <map>
 
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 #include "methods/kit/particles/part_toml.h"
 #include "methods/kit/particles/particle_system.h"
 #include "methods/kit/testing/test_moment.h"
-#include "methods/plugin_particles/last_positions.h"
+#include "methods/plugin_particles/curve_pass.h"
 #include "methods/plugin_particles/system_picture.h"
 
 namespace dustbench::plugin_particles {

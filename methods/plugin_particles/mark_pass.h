@@ -7,7 +7,7 @@
 #include <span>
 
 #include "methods/kit/draw/mesh_instances.h"
-#include "methods/kit/particles/mark.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::plugin_particles {
 

@@ -5,10 +5,10 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
-#include "methods/kit/particles/emitted_light.h"
 #include "methods/kit/particles/event_script.h"
-#include "methods/kit/particles/part_change.h"
-#include "methods/kit/particles/state_hash.h"
+#include "methods/kit/particles/part_list.h"
+#include "methods/kit/particles/particle_system.h"
+#include "methods/kit/particles/shading_part.h"
 
 namespace dustbench::plugin_particles {
 namespace {

@@ -1,11 +1,11 @@
 // Particle systems assembled from parts: one or several named systems, each with its own simulation.
 //
 // The systems are stepped and drawn in the order of their file, each drawn over the previous ones; they interact
-// only by events (kit/particles/event_part.h). With the harness's `particles=N` they share N evenly. With `wheel_dust`
+// only by events (kit/particles/events.h). With the harness's `particles=N` they share N evenly. With `wheel_dust`
 // the state equals that of the shared dust, bit by bit. Parts and their parameters may change during a run
-// (kit/particles/part_change.h); with several systems, a change's name begins with the system's. Source: Thesis, 3
+// (kit/particles/part_list.h); with several systems, a change's name begins with the system's. Source: Thesis, 3
 // (design), 4.1 (rendering). Departs: a structure of arrays unless a system chooses linked lists
-// (kit/particles/linked_particles.h).
+// (kit/particles/particle_store.h).
 #pragma once
 
 #include <memory>

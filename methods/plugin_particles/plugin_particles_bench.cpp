@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "methods/kit/draw/points.h"
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 #include "methods/kit/testing/test_moment.h"
 #include "methods/plugin_particles/system_picture.h"
 

@@ -47,15 +47,6 @@ class ShapePass {
 /// Throws InputError if the look's picture or mesh cannot be read.
 [[nodiscard]] std::unique_ptr<ShapePass> makePass(gpu::Device& device, const particles::Look& look,
                                                   const scene::Lights& lights);
-[[nodiscard]] std::unique_ptr<ShapePass> makePointPass(gpu::Device& device, const particles::Look& look);
-[[nodiscard]] std::unique_ptr<ShapePass> makeLinePass(gpu::Device& device, const particles::Look& look);
-[[nodiscard]] std::unique_ptr<ShapePass> makeCurvePass(gpu::Device& device, const particles::Look& look);
-[[nodiscard]] std::unique_ptr<ShapePass> makeHybridPass(gpu::Device& device, const particles::Look& look);
-[[nodiscard]] std::unique_ptr<ShapePass> makeSpritePass(gpu::Device& device, const particles::Look& look);
-[[nodiscard]] std::unique_ptr<ShapePass> makeObjectPass(gpu::Device& device, const particles::Look& look,
-                                                        const scene::Lights& lights);
-[[nodiscard]] std::unique_ptr<ShapePass> makeSurfacePass(gpu::Device& device, const particles::Look& look,
-                                                         const scene::Lights& lights);
 
 /// Calls `put(value, i)` for each particle `i` in drawing order; `value` points to the particle's floats in the buffer.
 template <typename Put>

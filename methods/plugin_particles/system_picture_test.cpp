@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 #include "methods/kit/testing/test_moment.h"
 
 namespace dustbench::plugin_particles {

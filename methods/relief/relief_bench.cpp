@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 #include "methods/kit/particles/particle_system.h"
 #include "methods/relief/particles/relief_particles.h"
 #include "methods/relief/relief_studio.h"

@@ -1,7 +1,7 @@
 #include "tests/one_kit/foreign_method.h"
 
 #include "methods/contract/errors.h"
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 
 namespace dustbench::one_kit {
 namespace {

@@ -17,7 +17,7 @@
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/program.h"
 #include "methods/kit/gpu/sort/scan.h"
-#include "methods/kit/particles/emitter_tracker.h"
+#include "methods/kit/particles/step.h"
 
 namespace dustbench::bench {
 namespace {

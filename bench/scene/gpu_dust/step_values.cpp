@@ -10,8 +10,7 @@
 #include "methods/kit/maths/bezier.h"
 #include "methods/kit/maths/sampling.h"
 #include "methods/kit/maths/turbulence.h"
-#include "methods/kit/particles/sampling_modes.h"
-#include "methods/kit/particles/vector_parameter.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::bench {
 namespace {

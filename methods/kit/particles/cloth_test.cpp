@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/kit/particles/lattice_surface.h"
+#include "methods/kit/particles/lattice.h"
 #include "methods/kit/particles/test_world.h"
 
 namespace dustbench::particles {
@@ -36,7 +36,8 @@ double largestStretch(const ParticleStore& s) {
 }
 
 TEST(Cloth, HangsWithinTheStretchOfItsSpringsAndOfItsStep) {
-    // The first row carries N = 19 rows: N·m·g/k by its springs, and 2·N·g·h² by the substeps (position_step.h).
+    // The first row carries N = 19 rows: N·m·g/k by its springs, and 2·N·g·h² by the substeps
+    // (parts/force/springs.cpp).
     const double springs = 19 * 0.0025 * 9.8 / 500 / 0.05;
     double before = 1;
     for (const int substeps : {4, 8, 16}) {

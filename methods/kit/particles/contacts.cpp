@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "methods/contract/errors.h"
-#include "methods/kit/particles/event.h"
+#include "methods/kit/particles/part_list.h"
 
 namespace dustbench::particles {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "methods/kit/maths/logarithm.h"
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 #include "methods/kit/particles/test_world.h"
 #include "methods/kit/testing/test_folder.h"
 

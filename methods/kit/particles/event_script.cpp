@@ -6,7 +6,7 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/maths/philox.h"
-#include "methods/kit/particles/part_change.h"
+#include "methods/kit/particles/part_list.h"
 
 namespace dustbench::particles {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "methods/kit/particles/emitted_light.h"
+#include "methods/kit/particles/shading_part.h"
 #include "methods/kit/particles/test_world.h"
 
 namespace dustbench::particles {

@@ -2,8 +2,6 @@
 
 #include <numeric>
 
-#include "methods/kit/particles/flagged.h"
-
 namespace dustbench::particles {
 
 NotedParticles::NotedParticles(MemoryLedger& ledger, const char* account)

@@ -1,8 +1,9 @@
-// A part: one aspect of a particle system, of one of ten kinds; created by name, with declared parameters.
+// A part: one aspect of a particle system, of one of ten kinds; created by name, with declared parameters. The table of
+// all parts that a particle system's file can use.
 //
 // A new part is one file, parts/KIND/NAME.cpp, with a function `PartInfo describe()` in the namespace
-// dustbench::particles::parts::KIND::NAME; the table is generated from the files. A new kind is a header next to this
-// one. Source: Thesis, 3.1.3 (the plugins). Departs: the kind event is ours.
+// dustbench::particles::parts::KIND::NAME; the table is generated from the files. A new kind is a class in
+// part_kinds.h or a header next to it. Source: Thesis, 3.1.3 (the plugins). Departs: the kind event is ours.
 #pragma once
 
 #include <array>
@@ -10,9 +11,11 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "methods/contract/parameters.h"
-#include "methods/kit/particles/mark.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles {
 
@@ -69,5 +72,29 @@ struct PartInfo {
     std::function<std::unique_ptr<Part>(const ParameterValues&)> create{};
     std::string library{};  ///< the file it was loaded from; empty for parts of this build; set by the table
 };
+
+/// The table: all parts, ordered by kind and name.
+[[nodiscard]] DUSTBENCH_API const std::vector<PartInfo>& partTable();
+
+/// Throws InputError if a part of this kind and name exists.
+DUSTBENCH_API void requireNewPart(const PartInfo& info);
+/// Adds a part from a library, with `library` set. References into partTable() become invalid. Throws as above.
+DUSTBENCH_API void addPart(PartInfo info);
+
+/// Notes the part's library as an input of the run. Throws InputError, which suggests the nearest name.
+[[nodiscard]] DUSTBENCH_API const PartInfo& findPart(PartKind kind, std::string_view name);
+
+using NamedValues = std::vector<std::pair<std::string, std::string>>;
+
+/// A part with default parameters, except for the given values. Throws InputError with the values allowed.
+[[nodiscard]] DUSTBENCH_API std::unique_ptr<Part> makePart(PartKind kind, std::string_view name,
+                                                           const NamedValues& values = {});
+
+/// The same with the class of its kind, for callers that use the part directly.
+template <typename Kind>
+[[nodiscard]] std::unique_ptr<Kind> makePartOf(PartKind kind, std::string_view name, const NamedValues& values = {}) {
+    std::unique_ptr<Part> part = makePart(kind, name, values);
+    return std::unique_ptr<Kind>(&dynamic_cast<Kind&>(*part.release()));
+}
 
 }  // namespace dustbench::particles

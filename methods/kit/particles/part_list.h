@@ -1,23 +1,18 @@
 // The parts of one system, six single parts and four lists, and how it stores its particles. All may be replaced
-// between updates.
+// between updates, also by name.
 //
-// Owns: the parts. Source: Thesis, 3.1.3.
+// Owns: the parts. Source: Thesis, 3.1.1 and 3.1.3 (every parameter and every part can be changed at any time).
 #pragma once
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
-#include "methods/kit/particles/colour_part.h"
-#include "methods/kit/particles/emission_part.h"
-#include "methods/kit/particles/event_part.h"
-#include "methods/kit/particles/force_part.h"
-#include "methods/kit/particles/life_part.h"
-#include "methods/kit/particles/linked_particles.h"
-#include "methods/kit/particles/position_part.h"
+#include "methods/kit/particles/events.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/particle_store.h"
 #include "methods/kit/particles/render_part.h"
 #include "methods/kit/particles/shading_part.h"
-#include "methods/kit/particles/size_part.h"
-#include "methods/kit/particles/velocity_part.h"
 
 namespace dustbench::particles {
 
@@ -75,5 +70,22 @@ class DUSTBENCH_API PartList {
     List<EventPart> events_;
     Storage storage_ = Storage::array;
 };
+
+/// Changes the parts of a running system by name: sets a parameter, or replaces, adds or removes a part.
+///
+///     velocity.speed = 8             a parameter of the single part of a kind
+///     velocity.direction.x = 0.5     a component of a vector
+///     velocity.part = random         another part of the kind, with default parameters
+///     force.gravity.acceleration = 2 a parameter of a part in a list, by the part's name
+///     force.2.acceleration = 2       or by its number in the list, from 1
+///     force.gravity.part = wind      replaces the part; none: removes it
+///     force.part = wind              adds a part
+///
+/// Throws InputError for an unknown name (with the nearest one), a value that is not allowed, or a change that would
+/// make the system invalid; the list is then unchanged.
+DUSTBENCH_API void changePart(PartList& parts, std::string_view name, std::string_view value);
+
+/// Scales every length of the part that sets sizes. Throws InputError if a length leaves its range.
+DUSTBENCH_API void scaleSizes(PartList& parts, double factor);
 
 }  // namespace dustbench::particles

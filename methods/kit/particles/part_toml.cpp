@@ -6,7 +6,7 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/toml_reader.h"
 #include "methods/kit/files/toml_text.h"
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 
 namespace dustbench::particles {
 namespace {

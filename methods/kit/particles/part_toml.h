@@ -1,7 +1,7 @@
 // Reads and writes particle systems as TOML: `[size]` and `[[force]]` tables with `part = "name"` and its parameters.
 //
 // A file contains one system, or several: one `[[system]]` table for each, with its `name` and its parts below it
-// (`[system.size]`, `[[system.force]]`). The key `storage` of a system is described in linked_particles.h. Source:
+// (`[system.size]`, `[[system.force]]`). The key `storage` of a system is described in particle_store.h. Source:
 // Thesis, 3.1.4 (systems are saved and loaded; a manager of named systems).
 #pragma once
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "methods/contract/errors.h"
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 #include "methods/kit/particles/test_world.h"
 #include "methods/kit/testing/test_folder.h"
 #include "source_folder.h"

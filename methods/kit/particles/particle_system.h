@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "methods/contract/scene.h"
@@ -73,5 +74,10 @@ class DUSTBENCH_API ParticleSystem {
     struct State;
     std::unique_ptr<State> state_;
 };
+
+/// The hash of a whole simulation: time, vehicle, moving solids and systems. The world and methods use the same
+/// function, so equal hashes mean equal states. `systems`: ParticleSystem::stateHash of each, in their order.
+[[nodiscard]] DUSTBENCH_API std::uint64_t stateHash(const scene::SceneState& state,
+                                                    std::span<const std::uint64_t> systems);
 
 }  // namespace dustbench::particles

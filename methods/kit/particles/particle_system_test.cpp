@@ -11,7 +11,7 @@
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/maths/transmittance.h"
 #include "methods/kit/particles/noted_particles.h"
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 #include "methods/kit/particles/test_world.h"
 
 namespace dustbench::particles {

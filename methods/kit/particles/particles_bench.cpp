@@ -10,7 +10,7 @@
 #include <ctime>
 #include <vector>
 
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 #include "methods/kit/particles/particle_system.h"
 #include "source_folder.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "methods/kit/maths/bezier.h"
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 #include "methods/kit/particles/test_world.h"
 
 namespace dustbench::particles {

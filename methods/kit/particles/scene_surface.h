@@ -1,8 +1,9 @@
 // The contents of a scene as one surface: its ground, its solids, and the moving vehicle.
 //
-// Ground and wheels are hit from outside; the triangles of solids and of the vehicle's body from both sides. Solids
-// that move or deform do so during the step, like the vehicle. A wheel is the cylinder of its outline, without
-// spokes, and its surface moves with its spin. Panels are ignored.
+// Ground and wheels are hit from outside; the triangles of solids and of the vehicle's body from both sides. The ground
+// is bilinear, as in scene::Terrain; particles below it may rise. Solids that move or deform do so during the step,
+// like the vehicle. A wheel is the cylinder of its outline, without spokes, and its surface moves with its spin. Panels
+// are ignored.
 //
 // Units: m, m/s, s. Frame: world. Owns: the triangles' trees. Threads: `meet` and `touchAt` are safe from any.
 #pragma once
@@ -10,12 +11,15 @@
 #include <optional>
 #include <set>
 
+#include "methods/contract/terrain.h"
 #include "methods/kit/meshes/triangle_tree.h"
-#include "methods/kit/particles/carried_frame.h"
-#include "methods/kit/particles/deformation.h"
-#include "methods/kit/particles/surface.h"
+#include "methods/kit/particles/contacts.h"
+#include "methods/kit/particles/moving_solids.h"
 
 namespace dustbench::particles {
+
+/// Writes the share at which each path first hits the ground, or Surface::none.
+void meetGround(const Ways& ways, const scene::Terrain& terrain, float* share);
 
 struct SceneParts {
     bool ground = true, solids = true, vehicle = true;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "methods/kit/particles/ground_surface.h"
+#include "methods/kit/particles/scene_surface.h"
 #include "methods/kit/particles/test_world.h"
 
 namespace dustbench::particles {

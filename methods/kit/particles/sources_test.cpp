@@ -10,8 +10,8 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/maths/sampling.h"
-#include "methods/kit/particles/named_mesh.h"
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
+#include "methods/kit/particles/part_parameters.h"
 #include "methods/kit/particles/test_statistics.h"
 #include "methods/kit/particles/test_world.h"
 #include "methods/kit/testing/test_folder.h"

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <set>
 
-#include "methods/kit/particles/lattice_links.h"
+#include "methods/kit/particles/lattice.h"
 #include "methods/kit/particles/test_world.h"
 #include "methods/kit/testing/test_input_error.h"
 

@@ -1,8 +1,9 @@
-// One time step as seen by the parts: the world, its wheels, and the step's length.
+// One time step as seen by the parts: the world, its length, and the birthplaces that move through it, such as wheels.
 //
-// Units: m, m/s, s. Frame: world. Owns: nothing; valid during one update.
+// Units: m, m/s, s. Frame: world. Owns: nothing, and is valid during one update, but for the tracker.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -49,6 +50,19 @@ enum RandomStream : std::uint32_t {
     colourStream,
     windStream,
     eventStream
+};
+
+/// Tracks the vehicle's wheels between steps, so that births can be spread along their paths.
+class DUSTBENCH_API EmitterTracker {
+ public:
+    /// The wheels' paths through a step that ends in `state`; empty without a vehicle. The first path is extrapolated
+    /// from the wheels' velocities.
+    [[nodiscard]] std::span<const Emitter> follow(const scene::Scene& scene, const scene::SceneState& state,
+                                                  double seconds);
+
+ private:
+    std::array<Emitter, 4> wheels_;
+    bool known_ = false;  ///< wheels_ is the end of the previous step
 };
 
 }  // namespace dustbench::particles

@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "methods/kit/maths/philox.h"
-#include "methods/kit/particles/storage_variants.h"
+#include "methods/kit/particles/storage_experiment.h"
 
 namespace dustbench::particles::storage {
 namespace {

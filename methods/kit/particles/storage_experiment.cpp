@@ -8,7 +8,6 @@
 #include "methods/kit/findings/findings.h"
 #include "methods/kit/findings/timing.h"
 #include "methods/kit/maths/philox.h"
-#include "methods/kit/particles/storage_variants.h"
 
 namespace dustbench::particles::storage {
 namespace {

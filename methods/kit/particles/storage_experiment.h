@@ -1,11 +1,252 @@
-// Measures the cost of a linked list, of arrays and of a pool of dead particles (claim R22).
+// Measures the cost of three ways to store particles, each with and without a pool of dead particles (claim R22): a
+// linked list, an array of structures, a structure of arrays.
 //
-// Threads: one. Source: Thesis, 3.1.3 and 3.3.1.
+// `scan` ages and moves all particles; `churn` removes the dead and adds newborns. The pool of a list keeps the nodes
+// of the dead. That of an array gives their slots to newborns; without it, the survivors are compacted first.
+//
+// Units: m, m/s, s. Owns: its particles. Threads: one caller at a time.
+// Source: Thesis, 3.1.2 (attributes) and 3.1.3 and 3.3.1 (list and pool).
 #pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "methods/contract/experiment.h"
 
 namespace dustbench::particles::storage {
+
+/// The attributes of a particle in the thesis.
+struct Attributes {
+    std::array<float, 3> position{}, velocity{}, acceleration{};
+    std::array<float, 4> colour{};
+    float size = 1, lifetime = 1, age = 0;
+    std::array<float, 3> luminosity{};
+
+    [[nodiscard]] bool isDead() const { return age > lifetime; }
+    void live(float seconds) {
+        age += seconds;
+        for (std::size_t k = 0; k < 3; ++k) {
+            velocity[k] += acceleration[k] * seconds;
+            position[k] += velocity[k] * seconds;
+        }
+    }
+};
+
+template <bool pool>
+class List {
+ public:
+    List() = default;
+    ~List() {
+        for (Node* first : {first_, free_})
+            while (first) delete std::exchange(first, first->next);
+    }
+    List(const List&) = delete;
+    List& operator=(const List&) = delete;
+
+    void scan(float seconds) {
+        for (Node* node = first_; node; node = node->next) node->particle.live(seconds);
+    }
+    void churn(const std::vector<Attributes>& newborns) {
+        sweep();
+        refill(newborns);
+    }
+    /// Removes the dead from the list.
+    void sweep() {
+        for (Node** link = &first_; *link;) {
+            Node* node = *link;
+            if (!node->particle.isDead()) {
+                link = &node->next;
+                continue;
+            }
+            *link = node->next;
+            node->next = free_;
+            free_ = node;
+        }
+    }
+    /// Adds newborns; without a pool, the nodes of the dead are freed first.
+    void refill(const std::vector<Attributes>& newborns) {
+        if constexpr (!pool)
+            while (free_) delete std::exchange(free_, free_->next);
+        for (const Attributes& newborn : newborns) first_ = make(newborn);
+    }
+    /// Bytes of a particle with its link.
+    static constexpr std::size_t bytesPerParticle() { return sizeof(Node); }
+    [[nodiscard]] double sumOfAges() const {
+        double sum = 0;
+        for (const Node* node = first_; node; node = node->next) sum += static_cast<double>(node->particle.age);
+        return sum;
+    }
+
+ private:
+    struct Node {
+        Attributes particle;
+        Node* next;
+    };
+
+    Node* make(const Attributes& particle) {
+        if (!free_) return new Node{particle, first_};
+        Node* node = std::exchange(free_, free_->next);
+        *node = {particle, first_};
+        return node;
+    }
+
+    Node *first_ = nullptr, *free_ = nullptr;
+};
+
+template <bool pool>
+class ArrayOfStructures {
+ public:
+    void scan(float seconds) {
+        for (Attributes& particle : particles_) particle.live(seconds);
+    }
+    void churn(const std::vector<Attributes>& newborns) {
+        std::size_t next = 0;
+        if constexpr (pool) {
+            for (std::size_t i = 0; i < particles_.size();) {
+                if (!particles_[i].isDead()) {
+                    ++i;
+                } else if (next < newborns.size()) {
+                    particles_[i++] = newborns[next++];
+                } else {
+                    particles_[i] = particles_.back();
+                    particles_.pop_back();
+                }
+            }
+        } else {
+            std::erase_if(particles_, [](const Attributes& particle) { return particle.isDead(); });
+        }
+        append(std::span(newborns).subspan(next));
+    }
+    void append(std::span<const Attributes> newborns) {
+        particles_.insert(particles_.end(), newborns.begin(), newborns.end());
+    }
+    [[nodiscard]] double sumOfAges() const {
+        double sum = 0;
+        for (const Attributes& particle : particles_) sum += static_cast<double>(particle.age);
+        return sum;
+    }
+
+ private:
+    std::vector<Attributes> particles_;
+};
+
+/// An array of structures from whose middle each dead particle is erased, so that all later ones move up.
+class ErasedArray {
+ public:
+    void scan(float seconds) {
+        for (Attributes& particle : particles_) particle.live(seconds);
+    }
+    void churn(const std::vector<Attributes>& newborns) {
+        for (std::size_t i = 0; i < particles_.size();)
+            if (particles_[i].isDead())
+                particles_.erase(particles_.begin() + static_cast<std::ptrdiff_t>(i));
+            else
+                ++i;
+        particles_.insert(particles_.end(), newborns.begin(), newborns.end());
+    }
+    [[nodiscard]] double sumOfAges() const {
+        double sum = 0;
+        for (const Attributes& particle : particles_) sum += static_cast<double>(particle.age);
+        return sum;
+    }
+
+ private:
+    std::vector<Attributes> particles_;
+};
+
+/// An array without spare capacity: to grow, it allocates again and moves all elements (`std::vector` does so at each
+/// doubling of its size). This is the thesis's array if no adjacent memory is free.
+class TightArray {
+ public:
+    void add(const std::vector<Attributes>& newborns) {
+        std::vector<Attributes> grown;
+        grown.reserve(particles_.size() + newborns.size());
+        grown.insert(grown.end(), particles_.begin(), particles_.end());
+        grown.insert(grown.end(), newborns.begin(), newborns.end());
+        particles_.swap(grown);
+    }
+    [[nodiscard]] std::size_t size() const { return particles_.size(); }
+
+ private:
+    std::vector<Attributes> particles_;
+};
+
+template <bool pool>
+class StructureOfArrays {
+ public:
+    void scan(float seconds) {
+        const std::size_t count = size();
+        age(count, columns_[ageColumn].data(), seconds);
+        for (std::size_t k = 0; k < 3; ++k)
+            move(count, columns_[k].data(), columns_[3 + k].data(), columns_[6 + k].data(), seconds);
+    }
+    void churn(const std::vector<Attributes>& newborns) {
+        std::size_t next = 0, kept = 0;
+        const std::size_t before = size();
+        if constexpr (pool) {
+            kept = before;
+            next = fillHoles(newborns, kept);
+        } else {
+            for (std::size_t i = 0; i < before; ++i)
+                if (!isDead(i)) copy(i, kept++);
+        }
+        resize(kept + newborns.size() - next);
+        for (std::size_t i = kept; next < newborns.size(); ++i) put(newborns[next++], i);
+    }
+    [[nodiscard]] double sumOfAges() const {
+        double sum = 0;
+        for (const float value : columns_[ageColumn]) sum += static_cast<double>(value);
+        return sum;
+    }
+
+ private:
+    static constexpr std::size_t lifetimeColumn = 14, ageColumn = 15;
+
+    static void age(std::size_t count, float* __restrict ages, float seconds) {
+        for (std::size_t i = 0; i < count; ++i) ages[i] += seconds;
+    }
+    static void move(std::size_t count, float* __restrict position, float* __restrict velocity,
+                     const float* __restrict acceleration, float seconds) {
+        for (std::size_t i = 0; i < count; ++i) {
+            velocity[i] += acceleration[i] * seconds;
+            position[i] += velocity[i] * seconds;
+        }
+    }
+    [[nodiscard]] std::size_t size() const { return columns_[0].size(); }
+    [[nodiscard]] bool isDead(std::size_t i) const { return columns_[ageColumn][i] > columns_[lifetimeColumn][i]; }
+    void resize(std::size_t count) {
+        for (auto& column : columns_) column.resize(count);
+    }
+    void copy(std::size_t from, std::size_t to) {
+        for (auto& column : columns_) column[to] = column[from];
+    }
+    /// Returns the number of newborns put into slots of the dead; `kept` becomes the new number of particles.
+    std::size_t fillHoles(const std::vector<Attributes>& newborns, std::size_t& kept) {
+        std::size_t used = 0;
+        for (std::size_t i = 0; i < kept;) {
+            if (!isDead(i))
+                ++i;
+            else if (used < newborns.size())
+                put(newborns[used++], i++);
+            else
+                copy(--kept, i);
+        }
+        return used;
+    }
+    void put(const Attributes& p, std::size_t i) {
+        const std::array<float, 19> values{p.position[0],     p.position[1],   p.position[2],     p.velocity[0],
+                                           p.velocity[1],     p.velocity[2],   p.acceleration[0], p.acceleration[1],
+                                           p.acceleration[2], p.colour[0],     p.colour[1],       p.colour[2],
+                                           p.colour[3],       p.size,          p.lifetime,        p.age,
+                                           p.luminosity[0],   p.luminosity[1], p.luminosity[2]};
+        for (std::size_t k = 0; k < values.size(); ++k) columns_[k][i] = values[k];
+    }
+
+    std::array<std::vector<float>, 19> columns_;
+};
 
 /// The experiment `storage`: 100,000 particles, of which 1 in 200 dies per step, after 400 steps.
 ///

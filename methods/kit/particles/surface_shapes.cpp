@@ -4,9 +4,8 @@
 #include <cmath>
 
 #include "methods/kit/meshes/triangle_tree.h"
-#include "methods/kit/particles/named_mesh.h"
+#include "methods/kit/particles/part_parameters.h"
 #include "methods/kit/particles/scene_surface.h"
-#include "methods/kit/particles/vector_parameter.h"
 
 namespace dustbench::particles {
 namespace {

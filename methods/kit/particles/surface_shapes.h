@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "methods/contract/parameters.h"
-#include "methods/kit/particles/mark.h"
-#include "methods/kit/particles/surface.h"
+#include "methods/kit/particles/contacts.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles {
 

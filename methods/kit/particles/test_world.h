@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 #include "methods/kit/particles/part_toml.h"
 #include "methods/kit/particles/particle_system.h"
 

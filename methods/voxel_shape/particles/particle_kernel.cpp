@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "methods/kit/parallel/for_each_block.h"
-#include "methods/kit/particles/flagged.h"
+#include "methods/kit/particles/noted_particles.h"
 
 namespace dustbench::voxel_shape {
 namespace {

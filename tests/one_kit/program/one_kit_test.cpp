@@ -6,7 +6,7 @@
 #include <string>
 
 #include "methods/contract/errors.h"
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 #include "tests/one_kit/foreign_method.h"
 
 namespace dustbench::one_kit {

@@ -1,9 +1,8 @@
 // One of two colours for each particle, like ground whose soil changes along the way: consecutive births share a
 // colour.
 #include "methods/kit/maths/philox.h"
-#include "methods/kit/particles/colour_part.h"
-#include "methods/kit/particles/opacity_curve.h"
-#include "methods/kit/particles/vector_parameter.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles::parts::colour::bands {
 namespace {

@@ -5,10 +5,8 @@
 #include <array>
 
 #include "methods/kit/maths/bezier.h"
-#include "methods/kit/particles/colour_part.h"
-#include "methods/kit/particles/opacity_curve.h"
-#include "methods/kit/particles/sampling_modes.h"
-#include "methods/kit/particles/vector_parameter.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles::parts::colour::bezier {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "methods/kit/maths/bezier.h"
-#include "methods/kit/particles/colour_part.h"
+#include "methods/kit/particles/part_kinds.h"
 
 namespace dustbench::particles::parts::colour::bezier_points {
 namespace {

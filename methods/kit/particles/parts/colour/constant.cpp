@@ -1,9 +1,8 @@
 // One constant colour for all particles: their own, or that of the scene's dust. Opacity changes with age.
 #include <algorithm>
 
-#include "methods/kit/particles/colour_part.h"
-#include "methods/kit/particles/opacity_curve.h"
-#include "methods/kit/particles/vector_parameter.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles::parts::colour::constant {
 namespace {

@@ -1,7 +1,6 @@
 // Colour interpolated linearly from birth to death: (1 − age/lifetime)·start + age/lifetime·end.
-#include "methods/kit/particles/colour_part.h"
-#include "methods/kit/particles/opacity_curve.h"
-#include "methods/kit/particles/vector_parameter.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles::parts::colour::linear {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "methods/contract/errors.h"
-#include "methods/kit/particles/emission_part.h"
+#include "methods/kit/particles/part_kinds.h"
 
 namespace dustbench::particles::parts::emission::bursts {
 namespace {

@@ -1,5 +1,5 @@
 // No births of its own: particles are born only where events of a system start them.
-#include "methods/kit/particles/emission_part.h"
+#include "methods/kit/particles/part_kinds.h"
 
 namespace dustbench::particles::parts::emission::on_event {
 namespace {

@@ -5,7 +5,7 @@
 // has its own moment within the step.
 #include <cmath>
 
-#include "methods/kit/particles/emission_part.h"
+#include "methods/kit/particles/part_kinds.h"
 
 namespace dustbench::particles::parts::emission::stream {
 namespace {

@@ -1,5 +1,5 @@
 // An event at each birth.
-#include "methods/kit/particles/event_part.h"
+#include "methods/kit/particles/events.h"
 
 namespace dustbench::particles::parts::event::birth {
 namespace {

@@ -1,6 +1,6 @@
 // An event at each contact with a surface of the system that is faster than a limit, so that resting particles, which
 // touch the surface in every step, are silent.
-#include "methods/kit/particles/event_part.h"
+#include "methods/kit/particles/events.h"
 
 namespace dustbench::particles::parts::event::collision {
 namespace {

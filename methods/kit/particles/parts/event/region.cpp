@@ -1,6 +1,6 @@
 // An event where a particle enters a region: where its path of a step passes the region's surface.
 #include "methods/kit/parallel/for_each_block.h"
-#include "methods/kit/particles/event_part.h"
+#include "methods/kit/particles/events.h"
 #include "methods/kit/particles/surface_shapes.h"
 
 namespace dustbench::particles::parts::event::region {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/kit/particles/event_part.h"
-#include "methods/kit/particles/vector_parameter.h"
+#include "methods/kit/particles/events.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles::parts::event::timer {
 namespace {

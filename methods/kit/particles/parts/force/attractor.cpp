@@ -1,7 +1,7 @@
 // A point that attracts all particles: a = k·f(d)·r/d, or repels them if k < 0.
-#include "methods/kit/particles/attraction_law.h"
-#include "methods/kit/particles/force_part.h"
-#include "methods/kit/particles/vector_parameter.h"
+#include "methods/kit/particles/attraction.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles::parts::force::attractor {
 namespace {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/kit/particles/force_part.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 #include "methods/kit/particles/surface_shapes.h"
-#include "methods/kit/particles/vector_parameter.h"
 
 namespace dustbench::particles::parts::force::avoid {
 namespace {

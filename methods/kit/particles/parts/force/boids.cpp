@@ -4,7 +4,7 @@
 // are. The rules use positions at the start of the step; newborns take part from the next step on.
 #include "methods/contract/errors.h"
 #include "methods/kit/particles/flock.h"
-#include "methods/kit/particles/force_part.h"
+#include "methods/kit/particles/part_kinds.h"
 #include "methods/kit/particles/particle_store.h"
 
 namespace dustbench::particles::parts::force::boids {

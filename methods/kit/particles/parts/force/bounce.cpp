@@ -8,8 +8,8 @@
 // caught.
 #include <cmath>
 
-#include "methods/kit/particles/force_part.h"
-#include "methods/kit/particles/sampling_modes.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 #include "methods/kit/particles/surface_shapes.h"
 
 namespace dustbench::particles::parts::force::bounce {

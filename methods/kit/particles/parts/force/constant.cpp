@@ -1,9 +1,8 @@
 // A constant force on all particles: wind, buoyancy, gravity in any direction.
 //
 // paper: a = m·F, as printed. fixed: a = F/m (Newton). At the thesis's mass of 1 kg they are equal.
-#include "methods/kit/particles/force_part.h"
-#include "methods/kit/particles/sampling_modes.h"
-#include "methods/kit/particles/vector_parameter.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles::parts::force::constant {
 namespace {

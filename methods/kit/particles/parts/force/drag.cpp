@@ -5,7 +5,7 @@
 // Stokes' law, which holds for grains as small as dust.
 #include <algorithm>
 
-#include "methods/kit/particles/force_part.h"
+#include "methods/kit/particles/part_kinds.h"
 
 namespace dustbench::particles::parts::force::drag {
 namespace {

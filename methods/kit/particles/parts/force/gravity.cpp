@@ -1,5 +1,5 @@
 // A constant downward acceleration: gravity minus buoyancy.
-#include "methods/kit/particles/force_part.h"
+#include "methods/kit/particles/part_kinds.h"
 
 namespace dustbench::particles::parts::force::gravity {
 namespace {

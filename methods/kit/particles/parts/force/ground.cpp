@@ -4,7 +4,7 @@
 // would move lower is raised to that height and loses its velocity into the ground, v ← v − (v·n)n if v·n < 0; the rest
 // decays at the rate `friction` (implicitly: v ← v/(1 + k·dt)). Departs from its source, the contact forces: position
 // and velocity are corrected after the move.
-#include "methods/kit/particles/force_part.h"
+#include "methods/kit/particles/part_kinds.h"
 
 namespace dustbench::particles::parts::force::ground {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "methods/kit/parallel/for_each_block.h"
 #include "methods/kit/particles/attraction.h"
-#include "methods/kit/particles/force_part.h"
+#include "methods/kit/particles/part_kinds.h"
 #include "methods/kit/particles/particle_store.h"
 
 namespace dustbench::particles::parts::force::interaction {

@@ -6,8 +6,8 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/parallel/for_each_block.h"
-#include "methods/kit/particles/force_part.h"
-#include "methods/kit/particles/lattice_surface.h"
+#include "methods/kit/particles/lattice.h"
+#include "methods/kit/particles/part_kinds.h"
 #include "methods/kit/particles/particle_store.h"
 
 namespace dustbench::particles::parts::force::sail {

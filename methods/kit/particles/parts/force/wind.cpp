@@ -2,7 +2,7 @@
 //
 // The source describes the gusts; maths/turbulence.h states the departures.
 #include "methods/kit/maths/turbulence.h"
-#include "methods/kit/particles/force_part.h"
+#include "methods/kit/particles/part_kinds.h"
 
 namespace dustbench::particles::parts::force::wind {
 namespace {

@@ -6,8 +6,8 @@
 // the contacts of a bounce; as printed, it flies on.
 #include <algorithm>
 
-#include "methods/kit/particles/life_part.h"
-#include "methods/kit/particles/sampling_modes.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 #include "methods/kit/particles/surface_shapes.h"
 
 namespace dustbench::particles::parts::life::collision {

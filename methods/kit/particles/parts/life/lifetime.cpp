@@ -6,8 +6,8 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/maths/philox.h"
-#include "methods/kit/particles/life_part.h"
-#include "methods/kit/particles/vector_parameter.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles::parts::life::lifetime {
 namespace {

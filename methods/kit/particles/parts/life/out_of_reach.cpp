@@ -1,6 +1,6 @@
 // Death by distance: farther than a reach from a place, or from the nearest of the vehicle's wheels.
-#include "methods/kit/particles/life_part.h"
-#include "methods/kit/particles/vector_parameter.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles::parts::life::out_of_reach {
 namespace {

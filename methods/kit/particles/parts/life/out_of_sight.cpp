@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "methods/contract/errors.h"
-#include "methods/kit/particles/life_part.h"
+#include "methods/kit/particles/part_kinds.h"
 
 namespace dustbench::particles::parts::life::out_of_sight {
 namespace {

@@ -1,8 +1,8 @@
 // Births distributed uniformly over a disc in the plane of its emitter.
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/maths/sampling.h"
-#include "methods/kit/particles/placed_source.h"
-#include "methods/kit/particles/vector_parameter.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles::parts::position::disc {
 namespace {

@@ -1,9 +1,10 @@
 // A lattice of columns × rows × layers, for springs and cloth.
 //
-// Source of the links between neighbours: lattice_links.h. Use with `bursts` of columns × rows × layers particles.
+// Source of the links between neighbours: kit/particles/lattice.h. Use with `bursts` of columns × rows × layers
+// particles.
 #include "methods/kit/particles/lattice.h"
 
-#include "methods/kit/particles/position_part.h"
+#include "methods/kit/particles/part_kinds.h"
 
 namespace dustbench::particles::parts::position::lattice {
 namespace {

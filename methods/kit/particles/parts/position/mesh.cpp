@@ -8,8 +8,8 @@
 
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/maths/sampling.h"
-#include "methods/kit/particles/named_mesh.h"
-#include "methods/kit/particles/placed_source.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles::parts::position::mesh {
 namespace {

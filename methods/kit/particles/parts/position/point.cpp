@@ -1,5 +1,5 @@
 // Births at a point.
-#include "methods/kit/particles/placed_source.h"
+#include "methods/kit/particles/part_kinds.h"
 
 namespace dustbench::particles::parts::position::point {
 namespace {

@@ -3,8 +3,8 @@
 // Frame of `normal`: the emitter's; x forward, y up, z right.
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/maths/sampling.h"
-#include "methods/kit/particles/placed_source.h"
-#include "methods/kit/particles/vector_parameter.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles::parts::position::rectangle {
 namespace {

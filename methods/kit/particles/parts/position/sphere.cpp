@@ -4,7 +4,7 @@
 // centre: both angles and the distance uniform, so that the density falls as 1/d².
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/maths/sampling.h"
-#include "methods/kit/particles/placed_source.h"
+#include "methods/kit/particles/part_kinds.h"
 
 namespace dustbench::particles::parts::position::sphere {
 namespace {

@@ -1,6 +1,6 @@
 // Sprites blurred along the path of the last step. Together the copies have the light and optical depth of one sprite.
+#include "methods/kit/particles/part_parameters.h"
 #include "methods/kit/particles/render_part.h"
-#include "methods/kit/particles/sprite_picture.h"
 
 namespace dustbench::particles::parts::render::aa_sprites {
 namespace {

@@ -1,6 +1,6 @@
 // Squares with a picture, all parallel to the image: one orientation, one matrix for all.
+#include "methods/kit/particles/part_parameters.h"
 #include "methods/kit/particles/render_part.h"
-#include "methods/kit/particles/sprite_picture.h"
 
 namespace dustbench::particles::parts::render::sprites {
 namespace {

@@ -1,6 +1,6 @@
 // Light from all sides: the same luminosity for all particles.
+#include "methods/kit/particles/part_parameters.h"
 #include "methods/kit/particles/shading_part.h"
-#include "methods/kit/particles/vector_parameter.h"
 
 namespace dustbench::particles::parts::shading::ambient {
 namespace {

@@ -1,5 +1,5 @@
 // Particles that emit light and light their surroundings: luminosity += 1 for the particles, and a few
-// lamps for the scene (emitted_light.h).
+// lamps for the scene (shading_part.h).
 #include "methods/kit/particles/shading_part.h"
 
 namespace dustbench::particles::parts::shading::glow {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "methods/contract/choices.h"
+#include "methods/kit/particles/part_parameters.h"
 #include "methods/kit/particles/shading_part.h"
-#include "methods/kit/particles/vector_parameter.h"
 
 namespace dustbench::particles::parts::shading::light {
 namespace {

@@ -1,7 +1,7 @@
 // One constant radius for all particles.
 #include <algorithm>
 
-#include "methods/kit/particles/size_part.h"
+#include "methods/kit/particles/part_kinds.h"
 
 namespace dustbench::particles::parts::size::constant {
 namespace {

@@ -1,5 +1,5 @@
 // A radius that changes linearly from birth to death.
-#include "methods/kit/particles/size_part.h"
+#include "methods/kit/particles/part_kinds.h"
 
 namespace dustbench::particles::parts::size::linear {
 namespace {

@@ -1,7 +1,7 @@
 // A constant radius drawn at birth: average + R·variation with R in [−1, 1).
 #include "methods/contract/errors.h"
 #include "methods/kit/maths/philox.h"
-#include "methods/kit/particles/size_part.h"
+#include "methods/kit/particles/part_kinds.h"
 
 namespace dustbench::particles::parts::size::random {
 namespace {

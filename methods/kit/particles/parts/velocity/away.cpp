@@ -3,8 +3,8 @@
 // A particle born exactly at the centre leaves in a random direction, uniform on the sphere.
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/maths/sampling.h"
-#include "methods/kit/particles/random_speed.h"
-#include "methods/kit/particles/velocity_part.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles::parts::velocity::away {
 namespace {

@@ -2,9 +2,8 @@
 //
 // Frame of `direction`: the emitter's; x forward, y up, z right.
 #include "methods/kit/maths/philox.h"
-#include "methods/kit/particles/random_speed.h"
-#include "methods/kit/particles/vector_parameter.h"
-#include "methods/kit/particles/velocity_part.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles::parts::velocity::fixed {
 namespace {

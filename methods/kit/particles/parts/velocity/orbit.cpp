@@ -2,14 +2,13 @@
 // × r|.
 //
 // The root is the speed of a circular orbit at distance d about an attractor of the same law, strength k and softening
-// (attraction_law.h), for particles in the plane through the centre. A particle born on the axis stays at rest.
+// (attraction.h), for particles in the plane through the centre. A particle born on the axis stays at rest.
 #include <cmath>
 
 #include "methods/kit/maths/philox.h"
-#include "methods/kit/particles/attraction_law.h"
-#include "methods/kit/particles/random_speed.h"
-#include "methods/kit/particles/vector_parameter.h"
-#include "methods/kit/particles/velocity_part.h"
+#include "methods/kit/particles/attraction.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles::parts::velocity::orbit {
 namespace {

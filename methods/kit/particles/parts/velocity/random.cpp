@@ -2,9 +2,8 @@
 //
 // paper: D is a vector of three random components, normalised, which favours a cube's corners. fixed: D is uniform.
 #include "methods/kit/maths/philox.h"
-#include "methods/kit/particles/random_speed.h"
-#include "methods/kit/particles/sampling_modes.h"
-#include "methods/kit/particles/velocity_part.h"
+#include "methods/kit/particles/part_kinds.h"
+#include "methods/kit/particles/part_parameters.h"
 
 namespace dustbench::particles::parts::velocity::random {
 namespace {

@@ -1,4 +1,4 @@
-#include "methods/kit/particles/emitted_light.h"
+#include "methods/kit/particles/shading_part.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "methods/kit/particles/emitter_tracker.h"
+#include "methods/kit/particles/step.h"
 
 namespace dustbench::particles {
 

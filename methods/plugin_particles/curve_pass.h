@@ -1,4 +1,4 @@
-// The positions of each particle of a system at the last steps.
+// Curves through the positions of the last steps.
 //
 // The store moves particles when others die: a particle that is not at its previous index was at the end, beyond the
 // present size. A particle that is not found at all is new and is assumed to have moved straight along its velocity.
@@ -10,13 +10,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
 #include "methods/contract/volume.h"
+#include "methods/plugin_particles/shape_pass.h"
 
 namespace dustbench::plugin_particles {
 
+/// The positions of each particle of a system at the last steps.
 class LastPositions {
  public:
     /// Keeps `positions` per particle, including the present one; at least two.
@@ -46,5 +49,7 @@ class LastPositions {
     std::size_t newest_ = 0;
     std::vector<std::uint64_t> serial_;
 };
+
+[[nodiscard]] std::unique_ptr<ShapePass> makeCurvePass(gpu::Device& device, const particles::Look& look);
 
 }  // namespace dustbench::plugin_particles

@@ -1,4 +1,4 @@
-#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part.h"
 
 #include <algorithm>
 
