@@ -5,16 +5,46 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <optional>
+#include <sstream>
 
-#include "bench/claims/claim_control.h"
+#include "bench/claims/claim_samples.h"
+#include "bench/measure/statistics.h"
+#include "bench/suite/paper.h"
 #include "bench/suite/suite.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 #include "methods/kit/files/limits.h"
 
 namespace dustbench::bench {
+
+ClaimVerdict verdictOf(ControlOutcome outcome) {
+    return outcome == ControlOutcome::refuted ? ClaimVerdict::refuted : ClaimVerdict::confirmed;
+}
+
 namespace {
+
+void append(std::string& text, const std::string& more) {
+    text += (text.empty() ? "" : "; ") + more;
+}
+
+/// `refuted, as expected (1.31: 40 times the particles)`.
+std::string outcomeText(const ControlRule& control, const ClaimResult& found) {
+    const bool isExpected = found.verdict == verdictOf(control.gives);
+    return fmt::format(
+        "{}{} ({}: {})", verdictName(found.verdict),
+        isExpected ? ", as expected" : fmt::format(", expected: {}", verdictName(verdictOf(control.gives))),
+        std::isfinite(found.measured) ? control.rule.textOf(found.measured) : "nothing measured", control.why);
+}
+
+/// True if the control shows that another verdict than this one is possible.
+bool isOpposite(ClaimVerdict verdict, ControlOutcome outcome) {
+    if (verdict == ClaimVerdict::confirmed) return outcome == ControlOutcome::refuted;
+    if (verdict == ClaimVerdict::refuted) return outcome == ControlOutcome::confirmed;
+    return true;
+}
 
 std::string rounded(double value) {
     return std::isfinite(value) ? fmt::format("{:.4g}", value) : "";
@@ -49,7 +79,48 @@ int repetitionIn(const files::CsvTable& summary, std::size_t row) {
     return static_cast<int>(number);
 }
 
+/// The sum of the columns of a run; empty if one of them is empty.
+std::optional<double> sumOf(const ResultRows& rows, std::size_t row, const std::string& columns) {
+    double sum = 0;
+    std::istringstream names(columns);
+    for (std::string name; names >> name;) {
+        const auto value = rows.number(row, name);
+        if (!value) return std::nullopt;
+        sum += *value;
+    }
+    return sum;
+}
+
 }  // namespace
+
+ClaimResult evaluateWithControls(const Claim& claim, const RuleEvaluator& evaluate) {
+    ClaimResult result = evaluate(claim.rule);
+    if (result.verdict == ClaimVerdict::notTested) return result;
+    bool missing = false, failed = false, turned = false;
+    for (const ControlRule& control : claim.controls) {
+        const ClaimResult found = evaluate(control.rule);
+        result.controls.push_back({found.verdict, found.measured});
+        if (found.verdict == ClaimVerdict::notTested) {
+            missing = true;
+            append(result.controlNote, "not run: " + control.why);
+            continue;
+        }
+        failed = failed || found.verdict != verdictOf(control.gives);
+        turned = turned || isOpposite(result.verdict, control.gives);
+        append(result.controlNote, outcomeText(control, found));
+    }
+    if (!failed && !turned && !missing)
+        append(result.controlNote,
+               fmt::format("no control can give the opposite of '{}'", verdictName(result.verdict)));
+    if (failed || (!turned && !missing))
+        result.control = ControlState::notTurned;
+    else
+        result.control = missing ? ControlState::notRun : ControlState::turned;
+    if (result.control != ControlState::notTurned) return result;
+    append(result.note, fmt::format("measured: {}; the control did not reverse it", verdictName(result.verdict)));
+    result.verdict = ClaimVerdict::untestable;
+    return result;
+}
 
 std::string verdictText(const EvaluatedClaim& evaluated) {
     const ClaimVerdict verdict = evaluated.result.verdict;
@@ -139,6 +210,40 @@ TextRows tabulate(const std::vector<EvaluatedClaim>& claims) {
                               rule.textOf(result.measured), range, rule.expected(), text});
     }
     return table;
+}
+
+TextRows tabulatePrinted(const files::CsvTable& published, const files::CsvTable& summary) {
+    TextRows table{{"what", "paper", "formula", "measured", "measured/formula"}, {}};
+    for (std::size_t line = 0; line < published.rows(); ++line) {
+        const std::string where = published.where(line);
+        const std::string& columns = published.cell(line, "columns");
+        const Selection of = parseSelection(published.cell(line, "of"), where + "of");
+        std::istringstream names(columns);
+        for (std::string name; names >> name;) requireColumn(where, name);
+        const std::string& suite = published.cell(line, "suite");
+        std::set<std::string> runs;
+        if (!suite.empty()) runs = runIdsOf(suite, summary);
+        const ResultRows rows(summary, suite.empty() ? nullptr : &runs);
+        std::vector<double> sums;
+        for (const std::size_t row : rows.select(of))
+            if (const auto sum = sumOf(rows, row, columns)) sums.push_back(*sum);
+        const std::string& formula = published.cell(line, "formula");
+        std::string measured, ratio;
+        if (!sums.empty()) {
+            const double found = median(sums);
+            measured = found == std::floor(found) ? files::csvNumber(found) : fmt::format("{:.4g}", found);
+            if (!formula.empty()) ratio = fmt::format("{:.3f}", found / published.number(line, "formula"));
+        }
+        table.rows.push_back(
+            {published.cell(line, "what"), published.cell(line, "published"), formula, measured, ratio});
+    }
+    return table;
+}
+
+TextRows tabulatePrinted(const std::string& paper, const files::CsvTable& summary) {
+    const std::filesystem::path file = paperFile(paper, "numbers.csv");
+    if (file.empty()) return {};
+    return tabulatePrinted(files::CsvTable::parseFile(file), summary);
 }
 
 }  // namespace dustbench::bench

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "bench/claims/claim_control.h"
+#include "bench/claims/claim_ledger.h"
 #include "methods/kit/maths/philox.h"
 
 namespace dustbench::bench {

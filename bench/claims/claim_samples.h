@@ -1,20 +1,61 @@
-// The values of a rule's quantity in the rows of a summary: one for each cell (configuration) and each turn, which is a
-// repetition or a seed.
+// The data of claims: the rows of completed runs in a summary.csv, and the values of a rule's quantity in them, one for
+// each cell and each turn, which is a repetition or a seed.
 //
-// Threads: pure.
+// Rows that differ only in the repetition form a cell (configuration) of the experiment. Threads: pure.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/claims/claim.h"
-#include "bench/claims/result_rows.h"
 #include "bench/measure/cost_fit.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 
+/// The rows of completed runs in a summary.csv.
+class ResultRows {
+ public:
+    /// Uses the rows of `table` whose run is completed and valid and, if `runIds` is given, listed there.
+    ResultRows(const files::CsvTable& table, const std::set<std::string>* runIds);
+
+    /// Why rows that match the selection are not used: `clipped (3 runs)`; empty if none is invalid.
+    [[nodiscard]] std::string invalidAmong(const Selection& selection) const;
+
+    /// Rows that match the selection. Numbers are compared as numbers; a choice such as `speed=5|40` matches either.
+    /// None if a column is missing in the table.
+    [[nodiscard]] std::vector<std::size_t> select(const Selection& selection) const;
+
+    [[nodiscard]] std::optional<double> number(std::size_t row, std::string_view column) const;
+    [[nodiscard]] int repetition(std::size_t row) const;
+    [[nodiscard]] const std::string& runId(std::size_t row) const;
+
+    /// True if both rows have the same world, repetition and settings, except for the columns in `named` and those that
+    /// are empty in one of them.
+    [[nodiscard]] bool correspond(std::size_t a, std::size_t b, const std::set<std::string>& named) const;
+    /// Identifies the cell of a row, without the columns `except`.
+    [[nodiscard]] std::string cellKey(std::size_t row, const std::set<std::string>& except) const;
+    /// The value of a column in a key of `cellKey`; for a pair of rows, that of the first.
+    [[nodiscard]] std::string valueIn(const std::string& key, std::string_view column) const;
+    /// The columns and values that distinguish a cell from the others with these keys: `p.particles` 500, `p.speed` 40.
+    /// A key may consist of the keys of a pair of rows. Columns in which the second row differs from the first then
+    /// appear with the prefix `with `.
+    [[nodiscard]] Selection cellValues(const std::string& key, const std::vector<std::string>& keys) const;
+
+ private:
+    [[nodiscard]] bool matches(std::size_t row, const Selection& selection) const;
+
+    const files::CsvTable& table_;
+    std::vector<std::size_t> rows_, invalid_;
+    std::vector<std::string> identity_;  ///< columns that distinguish cells
+};
+
+/// One value of a rule's quantity.
 struct ClaimSample {
     std::size_t cell = 0;   ///< index in `cells`
     std::int64_t turn = 1;  ///< repetition or seed

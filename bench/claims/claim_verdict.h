@@ -29,8 +29,8 @@
 #include <vector>
 
 #include "bench/claims/claim.h"
+#include "bench/claims/claim_samples.h"
 #include "bench/claims/experiments.h"
-#include "bench/claims/result_rows.h"
 
 namespace dustbench::bench {
 

@@ -43,4 +43,5 @@ TEST(Findings, AreReadAsTheyWereWritten) {
 }
 
 }  // namespace
+
 }  // namespace dustbench::bench

@@ -12,7 +12,6 @@
 #include "bench/results/stored_run.h"
 #include "bench/results/temporary_folder.h"
 #include "bench/suite/bundle/bundle.h"
-#include "bench/suite/bundle/exact_runs.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/data_folder.h"

@@ -11,11 +11,9 @@
 
 #include "bench/cli/commands.h"
 #include "bench/cli/text_table.h"
-#include "bench/recommend/budget.h"
 #include "bench/recommend/rankings.h"
 #include "bench/recommend/recommendation.h"
-#include "bench/recommend/recommendation_chart.h"
-#include "bench/recommend/recommendation_json.h"
+#include "bench/recommend/recommendation_output.h"
 #include "bench/suite/value_list.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/printable.h"

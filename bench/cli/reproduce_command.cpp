@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "bench/claims/claim_ledger.h"
-#include "bench/claims/printed_numbers.h"
 #include "bench/cli/commands.h"
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"

@@ -19,7 +19,7 @@
 #include "bench/cli/text_table.h"
 #include "bench/run/child_process.h"
 #include "bench/scene/time_step.h"
-#include "bench/suite/cell_results.h"
+#include "bench/suite/suite_cells.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/contract/stage_clock.h"

@@ -14,7 +14,6 @@
 #include "bench/cli/text_table.h"
 #include "bench/export/whole_file.h"
 #include "bench/results/temporary_folder.h"
-#include "bench/selfcheck/device_checks.h"
 #include "bench/selfcheck/machine_checks.h"
 #include "bench/selfcheck/picture_checks.h"
 #include "bench/selfcheck/selfcheck_report.h"

@@ -9,8 +9,8 @@
 
 #include "bench/export/exporter.h"
 #include "bench/results/input_files.h"
-#include "bench/run/dust_place.h"
-#include "bench/scene/camera_path.h"
+#include "bench/run/method_host.h"
+#include "bench/scene/cameras.h"
 #include "bench/scene/world.h"
 #include "bench/suite/value_list.h"
 #include "methods/contract/errors.h"

@@ -14,8 +14,7 @@
 #include "bench/results/stored_run.h"
 #include "bench/results/temporary_folder.h"
 #include "bench/run/progress.h"
-#include "bench/suite/suite_fit.h"
-#include "bench/suite/suite_verdicts.h"
+#include "bench/suite/suite_evaluation.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/printable.h"
 

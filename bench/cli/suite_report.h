@@ -7,8 +7,8 @@
 
 #include "bench/claims/claim_ledger.h"
 #include "bench/cli/plan_runner.h"
-#include "bench/suite/cell_results.h"
 #include "bench/suite/suite.h"
+#include "bench/suite/suite_cells.h"
 #include "bench/suite/suite_table.h"
 
 namespace dustbench::cli {

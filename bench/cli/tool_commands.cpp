@@ -3,7 +3,7 @@
 #include <iostream>
 #include <memory>
 
-#include "bench/claims/lent_context.h"
+#include "bench/claims/experiments.h"
 #include "bench/cli/commands.h"
 #include "bench/cli/text_table.h"
 #include "methods/contract/errors.h"

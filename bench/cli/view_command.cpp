@@ -9,7 +9,7 @@
 #include "bench/cli/commands.h"
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
-#include "bench/run/thread_limit.h"
+#include "bench/run/measured_run.h"
 #include "bench/view/keys.h"
 #include "bench/view/split_view.h"
 #include "bench/view/view_state.h"

@@ -11,7 +11,7 @@
 #include "bench/results/results_folder.h"
 #include "bench/results/stored_run.h"
 #include "bench/results/summary.h"
-#include "bench/suite/suite_axes.h"
+#include "bench/suite/suite_cells.h"
 #include "methods/contract/errors.h"
 
 namespace dustbench::bench {

@@ -2,15 +2,26 @@
 //
 // The rule: a setting fits if the upper end of the interval of its own time is within the budget. Of those that fit,
 // the one with the best picture leads. Settings whose intervals of quality overlap the leader's are equally good. Of
-// these and the leader, the one with the lowest median time is recommended. Threads: pure.
+// these and the leader, the one with the lowest median time is recommended. Units: ms. Threads: pure.
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bench/recommend/rankings.h"
 
 namespace dustbench::bench {
+
+/// The time that a method may add to a frame.
+struct Budget {
+    double ms = 0;
+    std::string asked;  ///< as given: `4ms`, `60fps`
+};
+
+/// Reads `4ms`, `0.25 ms`, or a frame rate: `60fps` is 1000/60 ms for the method. Throws InputError that begins with
+/// `what`.
+[[nodiscard]] Budget parseBudget(const std::string& what, const std::string& text);
 
 /// Indices are into Ranking::settings.
 struct Recommendation {

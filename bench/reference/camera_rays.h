@@ -1,17 +1,19 @@
-// The rays through an image's pixel centres, in double precision, in the camera's frame.
+// The rays through an image's pixel centres, in double precision, and how far along them the opaque scene is.
 //
-// Units: metres, slopes (lateral metres per metre ahead). Frame: camera axes (x right, y up, z ahead), origin at the
-// eye. The ray of a pixel is t·(slopeX, slopeY, 1)/√(1 + slopeX² + slopeY²), t being the distance from the eye. The
-// axes are those of scene::View, which has them in single precision only.
-// Threads: pure.
+// Units: metres, slopes (lateral metres per metre ahead). The ray of a pixel is t·(slopeX, slopeY, 1)/√(1 + slopeX² +
+// slopeY²), t being the distance from the eye. Threads: pure.
 #pragma once
 
 #include <glm/glm.hpp>
+#include <span>
+#include <vector>
 
 #include "methods/contract/view.h"
 
 namespace dustbench::bench {
 
+/// Frame: camera axes (x right, y up, z ahead), origin at the eye. The axes are those of scene::View, which has them in
+/// single precision only.
 class CameraRays {
  public:
     /// Throws std::invalid_argument for an image without pixels or a camera with non-finite values.
@@ -43,5 +45,25 @@ class CameraRays {
     glm::dvec3 eye_, right_{1, 0, 0}, up_{0, 1, 0}, ahead_{0, 0, -1};
     double limitX_, limitY_;  ///< slopes at the image's right and upper edge
 };
+
+/// Distance of the opaque scene along each pixel's ray, where integration of the dust ends: Euclidean from the eye
+/// along the ray (not along the camera's axis). Rows from the top.
+struct OpaqueDistances {
+    int width = 0;
+    int height = 0;
+    std::vector<double> metres;  ///< width·height; +inf for sky
+};
+
+/// From a reversed depth image, rows from the top: depth = near / distance along the axis, 0 is the sky. With the
+/// slopes x, y of the pixel's ray, the distance is near/depth·√(1 + x² + y²). Exact for the given depth;
+/// single-precision reversed depth itself is accurate to 6e-8 of the distance. Throws std::invalid_argument if the
+/// number of values is not view.width·view.height, and for depths outside [0, 1] or NaN.
+[[nodiscard]] OpaqueDistances distancesFromDepth(const scene::View& view, std::span<const float> depth);
+
+/// No opaque scene: all sky.
+[[nodiscard]] OpaqueDistances skyDistances(const scene::View& view);
+
+/// Throws std::invalid_argument unless `distances` fits the view and every distance is 0 or more (+inf included).
+void checkDistances(const scene::View& view, const OpaqueDistances& distances);
 
 }  // namespace dustbench::bench

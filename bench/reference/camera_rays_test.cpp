@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "bench/reference/opaque_distances.h"
-
 namespace dustbench::bench {
 namespace {
 
@@ -110,4 +108,5 @@ TEST(OpaqueDistances, RefuseOtherSizesAndDepthsThatAreNone) {
 }
 
 }  // namespace
+
 }  // namespace dustbench::bench

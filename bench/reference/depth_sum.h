@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "bench/reference/camera_rays.h"
-#include "bench/reference/opaque_distances.h"
 #include "bench/reference/puff_list.h"
 
 namespace dustbench::bench {

@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bench/reference/opaque_distances.h"
+#include "bench/reference/camera_rays.h"
 #include "methods/contract/view.h"
 #include "methods/contract/volume.h"
 #include "methods/kit/pictures/image.h"

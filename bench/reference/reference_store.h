@@ -11,8 +11,8 @@
 #include <optional>
 #include <string>
 
+#include "bench/reference/camera_rays.h"
 #include "bench/reference/cloud_march.h"
-#include "bench/reference/opaque_distances.h"
 #include "bench/reference/particle_image.h"
 
 namespace dustbench::bench {

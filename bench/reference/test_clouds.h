@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "bench/reference/camera_rays.h"
-#include "bench/reference/opaque_distances.h"
 #include "methods/contract/volume.h"
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/maths/transmittance.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/claims/claim_control.h"
+#include "bench/claims/claim_ledger.h"
 #include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {

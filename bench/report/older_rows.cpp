@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "bench/results/run_spec.h"
-#include "bench/suite/baselines.h"
 #include "bench/suite/suite.h"
+#include "bench/suite/suite_plan.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/csv.h"

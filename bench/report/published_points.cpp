@@ -16,7 +16,7 @@
 #include "bench/results/summary.h"
 #include "bench/suite/paper.h"
 #include "bench/suite/suite.h"
-#include "bench/suite/suite_axes.h"
+#include "bench/suite/suite_cells.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 

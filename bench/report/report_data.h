@@ -13,7 +13,7 @@
 #include "bench/report/median_interval.h"
 #include "bench/results/stored_run.h"
 #include "bench/suite/paper.h"
-#include "bench/suite/suite_verdicts.h"
+#include "bench/suite/suite_evaluation.h"
 
 namespace dustbench::bench {
 

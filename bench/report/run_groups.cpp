@@ -8,12 +8,11 @@
 #include <set>
 
 #include "bench/report/report_files.h"
-#include "bench/suite/baselines.h"
 #include "bench/suite/catalogue.h"
-#include "bench/suite/cell_results.h"
 #include "bench/suite/suite.h"
-#include "bench/suite/suite_axes.h"
-#include "bench/suite/suite_verdicts.h"
+#include "bench/suite/suite_cells.h"
+#include "bench/suite/suite_evaluation.h"
+#include "bench/suite/suite_plan.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 

@@ -40,9 +40,9 @@ struct RunSpec {
     std::string method;
     std::string scene = "plain";
     std::string drive;        ///< empty: the scene's own
-    std::string cameraPath;   ///< file or rows (camera_path.h); empty: the camera of the parameter `camera`
+    std::string cameraPath;   ///< file or rows (cameras.h); empty: the camera of the parameter `camera`
     std::string dust;         ///< particles from a file (dust_files.h) instead of the scene's; empty: the scene's
-    std::string dustColumns;  ///< the meaning of its columns (dust_columns.h); empty: by name
+    std::string dustColumns;  ///< the meaning of its columns (dust_moment.h); empty: by name
     DustOn dustOn = DustOn::automatic;
     ParameterTexts parameters;  ///< all parameters of world and method, in canonical form
     std::int64_t frames = 120;

@@ -14,8 +14,6 @@
 #include <iterator>
 #include <thread>
 
-#include "bench/run/bounded_log.h"
-
 namespace dustbench::bench {
 namespace {
 
@@ -161,4 +159,5 @@ TEST(ChildProcess, DoesNotOutliveItsParent) {
 }
 
 }  // namespace
+
 }  // namespace dustbench::bench

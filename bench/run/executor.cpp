@@ -14,7 +14,7 @@
 #include "bench/results/output_files.h"
 #include "bench/results/summary.h"
 #include "bench/run/child_process.h"
-#include "bench/run/remaining_time.h"
+#include "bench/run/run_forecast.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/machine_error.h"
 

@@ -12,7 +12,7 @@
 
 #include "bench/results/results_folder.h"
 #include "bench/results/run_record.h"
-#include "bench/run/forecast_by_cell.h"
+#include "bench/run/run_forecast.h"
 #include "bench/suite/suite.h"
 
 namespace dustbench::bench {

@@ -17,7 +17,7 @@
 #include "bench/results/freshness.h"
 #include "bench/results/summary.h"
 #include "bench/run/executor.h"
-#include "bench/run/remaining_time.h"
+#include "bench/run/run_forecast.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 #include "methods/kit/files/machine_error.h"

@@ -8,10 +8,9 @@
 #include "bench/export/whole_file.h"
 #include "bench/results/input_files.h"
 #include "bench/results/run_record.h"
-#include "bench/run/dust_place.h"
 #include "bench/run/frame_runner.h"
-#include "bench/run/replay.h"
-#include "bench/run/thread_limit.h"
+#include "bench/run/measured_run.h"
+#include "bench/run/method_host.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 

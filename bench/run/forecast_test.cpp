@@ -7,7 +7,6 @@
 
 #include "bench/run/measured_run.h"
 #include "bench/run/plan_forecast.h"
-#include "bench/run/remaining_time.h"
 #include "bench/run/run_forecast.h"
 #include "bench/suite/suite.h"
 #include "methods/contract/registry.h"

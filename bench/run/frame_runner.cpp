@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "bench/measure/memory_probe.h"
-#include "bench/run/finite_picture.h"
+#include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/draw/read_back.h"
 
@@ -39,6 +40,15 @@ float maximumDifference(const pictures::Image& a, const pictures::Image& b) {
                 std::isfinite(difference) ? std::max(maximum, difference) : std::numeric_limits<float>::infinity();
         }
     return maximum;
+}
+
+constexpr std::array<std::string_view, 4> channels{"red", "green", "blue", "alpha"};
+
+/// The first channel that is not finite, or the number of channels.
+std::size_t brokenChannel(const glm::vec4& pixel) {
+    std::size_t channel = 0;
+    while (channel < channels.size() && std::isfinite(pixel[static_cast<int>(channel)])) ++channel;
+    return channel;
 }
 
 }  // namespace
@@ -240,6 +250,36 @@ DrawnMoment FrameRunner::drawn(bool withDetail) {
 pictures::Image FrameRunner::picture() {
     drain();
     return host_.picture();
+}
+
+bool replay(const Replay& replay) {
+    for (std::int64_t step = 0; step < replay.prerollSteps; ++step) {
+        replay.progress("preroll", step, replay.prerollSteps);
+        const std::int64_t index = step - replay.prerollSteps - replay.spec.warmup;
+        step + 1 < replay.prerollSteps ? replay.runner.stepWithoutPicture(index) : replay.runner.updateOnly(index);
+        if (!replay.stepped()) return false;
+    }
+    for (std::int64_t index = -replay.spec.warmup; index <= replay.lastFrame; ++index) {
+        replay.progress("frames", std::max<std::int64_t>(index, 0), replay.lastFrame + 1);
+        replay.runner.updateOnly(index);
+        const bool goOn = replay.stepped();
+        if (index >= 0) replay.visit(index);
+        if (!goOn) return false;
+    }
+    replay.progress("frames", replay.lastFrame + 1, replay.lastFrame + 1);
+    return true;
+}
+
+void requireFinite(const pictures::Image& picture, std::int64_t frame, Stage stage, std::string_view what) {
+    const auto isBroken = [](const glm::vec4& pixel) { return brokenChannel(pixel) < channels.size(); };
+    const auto first = std::ranges::find_if(picture.pixels, isBroken);
+    if (first == picture.pixels.end()) return;
+    const auto index = first - picture.pixels.begin();
+    const std::size_t channel = brokenChannel(*first);
+    throw SimulationError(fmt::format(
+        "frame {}: {} is not finite in {} pixels, first in ({}, {}): {} is {} (stage {})", frame, what,
+        std::ranges::count_if(picture.pixels, isBroken), index % picture.width, index / picture.width,
+        channels[channel], (*first)[static_cast<int>(channel)], stageNames[static_cast<std::size_t>(stage)]));
 }
 
 }  // namespace dustbench::bench

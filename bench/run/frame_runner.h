@@ -1,13 +1,16 @@
-// Steps a world and times the frames of one method in it: input, simulation, method, opaque scene, drawing, waiting.
+// Steps a world and times the frames of one method in it: input, simulation, method, opaque scene, drawing, waiting. A
+// replay makes the same steps without measuring.
 //
 // Owns: the method's host. Threads: the one that created it, inside the oneTBB arena to be used.
 #pragma once
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,9 +19,11 @@
 #include "bench/results/run_spec.h"
 #include "bench/run/method_host.h"
 #include "bench/scene/world.h"
+#include "methods/contract/stage_clock.h"
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/device.h"
 #include "methods/kit/gpu/queue_marks.h"
+#include "methods/kit/pictures/image.h"
 
 namespace dustbench::bench {
 
@@ -85,5 +90,27 @@ class FrameRunner {
     std::deque<PendingCount> pendingCounts_;
     std::vector<FrameRecord> records_;
 };
+
+struct Replay {
+    const RunSpec& spec;
+    FrameRunner& runner;
+    std::int64_t prerollSteps;  ///< stepsBeforeWarmup
+    std::int64_t lastFrame;
+    /// Called after each step, including the untimed ones before frame 0; returning false stops the replay.
+    std::function<bool()> stepped;
+    /// Called after each frame from 0 on.
+    std::function<void(std::int64_t frame)> visit;
+    /// As RunProgress.
+    std::function<void(std::string_view phase, std::int64_t done, std::int64_t total)> progress;
+};
+
+/// Repeats the steps of a run without measuring: at each frame, world and method have made exactly the same steps as in
+/// `measureRun`. Returns false if `stepped` stopped it.
+bool replay(const Replay& replay);
+
+/// Checks that the pixels drawn by a stage are finite. Throws SimulationError with the number of non-finite pixels and
+/// the first of them, from the top left: `frame 119: the method's layer is not finite in 3 pixels, first in (12, 40):
+/// red is nan (stage draw)`.
+void requireFinite(const pictures::Image& picture, std::int64_t frame, Stage stage, std::string_view what);
 
 }  // namespace dustbench::bench

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "bench/measure/image/picture_error.h"
-#include "bench/run/dust_place.h"
 #include "bench/run/frame_runner.h"
 #include "bench/run/measured_run.h"
+#include "bench/run/method_host.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/gpu/faulty_driver.h"

@@ -6,8 +6,8 @@
 
 #include "bench/export/whole_file.h"
 #include "bench/measure/image/heat_map.h"
-#include "bench/run/dust_place.h"
-#include "bench/run/replay.h"
+#include "bench/run/frame_runner.h"
+#include "bench/run/method_host.h"
 #include "methods/contract/registry.h"
 
 namespace dustbench::bench {

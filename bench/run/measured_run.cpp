@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
+
+#include <cstdlib>
+#include <string>
 
 #include "bench/export/volume_exporter.h"
 #include "bench/measure/clock.h"
@@ -16,13 +20,13 @@
 #include "bench/results/method_facts.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/summary.h"
-#include "bench/run/dust_place.h"
 #include "bench/run/frame_runner.h"
 #include "bench/run/judged_run.h"
-#include "bench/run/thread_limit.h"
+#include "bench/run/method_host.h"
 #include "methods/contract/registry.h"
 
 namespace dustbench::bench {
+
 namespace fs = std::filesystem;
 namespace {
 
@@ -256,6 +260,19 @@ RunRecord measureRun(const RunSpec& spec, const fs::path& folder, std::vector<st
         record.summary.emplace_back("run_s", secondsSinceProcessStart());
     record.outputs = outputsIn(folder);
     return record;
+}
+
+void withThreads(int threads, const std::function<void()>& work) {
+    if (threads == 0) {
+        work();
+        return;
+    }
+    // The limit includes the software rasteriser's threads, whatever the caller's environment says.
+    setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                            static_cast<std::size_t>(threads));
+    oneapi::tbb::task_arena arena(threads);
+    arena.execute(work);
 }
 
 }  // namespace dustbench::bench

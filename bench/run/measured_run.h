@@ -23,4 +23,8 @@ using RunProgress = std::function<void(std::string_view phase, std::int64_t done
                                    std::vector<std::string> argv, const RunProgress& progress,
                                    const std::filesystem::path& references = {});
 
+/// Calls `work` with at most `threads` threads, oneTBB's and a software rasteriser's; 0: one per core. The limit
+/// affects the rasteriser only if OpenGL is not in use yet; it overrides the environment variable `LP_NUM_THREADS`.
+void withThreads(int threads, const std::function<void()>& work);
+
 }  // namespace dustbench::bench

@@ -1,5 +1,5 @@
-// Hosts one method in one world: its graphics, memory and facts. The world is stepped by the caller, so several hosts
-// can show the same moment.
+// Hosts one method in one world: its graphics, memory and facts, and the place where the shared dust is simulated. The
+// world is stepped by the caller, so several hosts can show the same moment.
 //
 // Owns: the method, the picture's targets and the ledger of all GPU memory behind them. Threads: the device's.
 #pragma once
@@ -8,8 +8,10 @@
 #include <memory>
 #include <string>
 
+#include "bench/measure/provenance.h"
 #include "bench/reference/judge/moment_pictures.h"
 #include "bench/results/run_record.h"
+#include "bench/results/run_spec.h"
 #include "bench/scene/world.h"
 #include "methods/contract/method.h"
 #include "methods/kit/draw/layer_blend.h"
@@ -93,5 +95,16 @@ class MethodHost {
     Facts ofFrame_;
     std::vector<std::optional<FactValue>> maxima_;  ///< by index in info_.facts
 };
+
+/// Throws InputError, which names what has no shader, if the run requests the GPU for dust that cannot live there.
+void requireDustPlace(const RunSpec& spec, const World& world);
+
+/// Moves the dust to the device if the run requests it; `auto`: if the device is hardware and the dust can live there.
+/// Call before the first step. Returns the choice and the reason: `gpu` and `hardware device`.
+DustPlace placeDust(const RunSpec& spec, World& world, gpu::Device& device);
+
+/// The warning of a run whose method needs the dust read back; empty for other methods.
+[[nodiscard]] std::string readBackWarning(const World& world, const MethodInfo& info,
+                                          const ParameterValues& parameters);
 
 }  // namespace dustbench::bench

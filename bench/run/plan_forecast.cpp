@@ -9,7 +9,7 @@
 
 #include "bench/run/child_process.h"
 #include "bench/run/progress.h"
-#include "bench/run/remaining_time.h"
+#include "bench/run/run_forecast.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;

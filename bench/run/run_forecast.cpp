@@ -8,11 +8,11 @@
 #include "bench/measure/image/popping.h"
 #include "bench/run/judged_run.h"
 #include "bench/run/measured_run.h"
-#include "bench/run/thread_limit.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/gpu/device.h"
 
 namespace dustbench::bench {
+
 namespace fs = std::filesystem;
 namespace {
 
@@ -103,6 +103,59 @@ RunForecast forecastRun(const RunSpec& spec, const fs::path& folder) {
         if (whyNotEvaluated(*spec.metricPlan, *method).empty()) metrics = beginMetrics(spec, folder, device);
     });
     return extrapolate(spec, frames, metrics);
+}
+
+std::string cellOf(RunSpec run) {
+    run.repetition = 1;
+    run.seed = 1;
+    run.metricPlan.reset();
+    return canonicalKey(run);
+}
+
+void ForecastByCell::set(const RunSpec& cell, const RunForecast& forecast) {
+    byCell_[cellOf(cell)] = forecast;
+}
+
+double ForecastByCell::seconds(const RunSpec& run) const {
+    const auto found = byCell_.find(cellOf(run));
+    if (found == byCell_.end()) return -1;
+    return run.metricPlan ? found->second.seconds() : found->second.measuring;
+}
+
+RemainingTime::RemainingTime(const std::vector<const PlannedRun*>& toDo, const ForecastByCell& forecasts,
+                             double cooldownSeconds) {
+    for (const PlannedRun* run : toDo) {
+        RunSpec cell = run->spec;
+        cell.repetition = 1;
+        const double forecast = forecasts.seconds(run->spec);
+        const double rest = runs_.empty() ? 0 : cooldownSeconds;
+        runs_.push_back({canonicalKey(cell), forecast < 0 ? forecast : forecast + rest});
+    }
+}
+
+void RemainingTime::ended(std::size_t position, double seconds) {
+    Run& run = runs_.at(position);
+    for (Ended* each : {&byCell_[run.cell], &all_}) {
+        each->sum += seconds;
+        ++each->count;
+    }
+    run.ended = true;
+}
+
+double RemainingTime::seconds() const {
+    double sum = 0;
+    for (const auto& [cell, forecast, isOver] : runs_) {
+        if (isOver) continue;
+        if (const auto ended = byCell_.find(cell); ended != byCell_.end())
+            sum += ended->second.mean();
+        else if (forecast >= 0)
+            sum += forecast;
+        else if (all_.count > 0)
+            sum += all_.mean();
+        else
+            return -1;
+    }
+    return sum;
 }
 
 }  // namespace dustbench::bench

@@ -13,7 +13,7 @@ using glm::vec3;
 
 constexpr vec3 rubber{0.018f, 0.017f, 0.016f};
 constexpr vec3 worn{0.040f, 0.037f, 0.034f};
-constexpr vec3 letters{0.55f, 0.54f, 0.50f};
+constexpr vec3 tyreLetters{0.55f, 0.54f, 0.50f};
 constexpr vec3 rimColour{0.62f, 0.62f, 0.60f};
 constexpr vec3 dark{0.012f, 0.012f, 0.012f};
 
@@ -43,7 +43,7 @@ scene::Mesh carWheel(const scene::VehicleParameters& parameters) {
     builder.turned(profile, segments, [](int part, int segment) {
         if (part < 2 || part == 10) return dark;
         if (part == 2 || part == 3) return rimColour;
-        if (part == 5 && segment % 12 < 4) return letters;
+        if (part == 5 && segment % 12 < 4) return tyreLetters;
         if (part == 7 && segment % 2 == 0) return worn;
         return rubber;
     });

@@ -1,7 +1,10 @@
-// Reads the panels of a scene: its `[[panel]]` tables. `data/scenes/relief_wall.toml` documents the keys.
+// Reads the panels of a scene, its `[[panel]]` tables, and the reliefs on them. `data/scenes/relief_wall.toml` and
+// `data/reliefs/bricks.toml` document the keys.
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "methods/contract/scene.h"
@@ -16,5 +19,15 @@ namespace dustbench::bench {
 
 /// True if the two plates have a point in common. Both must be in the frame of the same parent.
 [[nodiscard]] bool overlap(const scene::Panel& one, const scene::Panel& other);
+
+/// A relief from its own file, which names its heights and colours as pictures.
+struct ReliefFile {
+    std::string description;
+    std::shared_ptr<const scene::Relief> relief;
+    std::vector<std::filesystem::path> files;  ///< this file and the pictures that it names
+};
+
+/// Throws InputError with the file and what was expected.
+[[nodiscard]] ReliefFile readRelief(const std::filesystem::path& file);
 
 }  // namespace dustbench::bench

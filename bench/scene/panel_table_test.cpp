@@ -6,7 +6,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-#include "bench/scene/relief_file.h"
 #include "bench/scene/scene_file.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/testing/test_folder.h"
@@ -170,4 +169,5 @@ TEST(Panels, OverlapIsThatOfTheirPoints) {
 }
 
 }  // namespace
+
 }  // namespace dustbench::bench

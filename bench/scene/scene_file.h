@@ -11,6 +11,7 @@
 #include "bench/scene/cameras.h"
 #include "bench/scene/moving_solids.h"
 #include "methods/contract/scene.h"
+#include "methods/contract/terrain.h"
 
 namespace dustbench::bench {
 
@@ -42,5 +43,11 @@ struct SceneFile {
 /// Unit vector to a sun at an elevation above the horizon. The azimuth is measured like headings: 0 at +X, increasing
 /// towards −Z.
 [[nodiscard]] glm::vec3 sunDirection(double elevation, double azimuth);
+
+/// Reads a height field from an image. Uses the first channel as stored (no colour decoding): black is `baseMetres`,
+/// white is `heightMetres` above. One sample per pixel, `spacingMetres` apart, with the image's centre at the world's
+/// origin and its top row at minimum z. Throws InputError with the file and the reason.
+[[nodiscard]] scene::Terrain readHeightImage(const std::filesystem::path& file, double spacingMetres,
+                                             double heightMetres, double baseMetres);
 
 }  // namespace dustbench::bench

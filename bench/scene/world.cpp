@@ -8,7 +8,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "bench/scene/drive_controls.h"
+#include "bench/scene/control_source.h"
 #include "bench/scene/dust_series.h"
 #include "bench/scene/gpu_dust/gpu_dust.h"
 #include "bench/scene/gpu_dust/step_values.h"

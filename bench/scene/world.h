@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/scene/camera_path.h"
 #include "bench/scene/cameras.h"
 #include "bench/scene/control_source.h"
 #include "bench/scene/given_dust.h"

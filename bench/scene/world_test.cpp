@@ -7,8 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "bench/scene/control_recording.h"
-#include "bench/scene/drive_controls.h"
+#include "bench/scene/control_source.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/maths/transmittance.h"
 #include "methods/kit/testing/test_folder.h"

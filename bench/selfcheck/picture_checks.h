@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/run/executor.h"
-#include "bench/selfcheck/check.h"
+#include "bench/selfcheck/selfcheck_report.h"
 
 namespace dustbench::bench {
 

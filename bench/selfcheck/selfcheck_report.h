@@ -1,4 +1,4 @@
-// selfcheck.json: the findings of a self-check, written and read.
+// The findings of a self-check about this machine, and selfcheck.json, which they are written to and read from.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,23 @@
 #include <vector>
 
 #include "bench/measure/provenance.h"
-#include "bench/selfcheck/check.h"
+#include "methods/contract/choices.h"
 
 namespace dustbench::bench {
+
+/// attention: the program works around it, but results mean less. failed: results of this machine are wrong.
+enum class Outcome { ok, attention, failed };
+inline constexpr Choices<Outcome> outcomes{
+    {"ok", Outcome::ok}, {"attention", Outcome::attention}, {"failed", Outcome::failed}};
+
+/// What was measured, what is expected, and whether it is right.
+struct Check {
+    std::string name;
+    Outcome outcome = Outcome::ok;
+    std::string measured;
+    std::string expected;  ///< empty for a plain fact
+    std::string note{};    ///< what it means for results; empty where the outcome says enough
+};
 
 /// An object with `passed`, `device`, `machine`, `program` and `checks`: `{name, outcome, measured, expected, note}`.
 [[nodiscard]] std::string selfcheckJson(const Provenance& provenance, const std::vector<Check>& checks);

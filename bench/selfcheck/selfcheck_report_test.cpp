@@ -37,4 +37,5 @@ TEST(SelfcheckProblems, SayThatAFileCannotBeRead) {
 }
 
 }  // namespace
+
 }  // namespace dustbench::bench

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "bench/selfcheck/device_checks.h"
 #include "bench/selfcheck/machine_checks.h"
 #include "bench/selfcheck/picture_checks.h"
 #include "bench/selfcheck/selfcheck_report.h"

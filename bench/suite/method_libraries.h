@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -44,5 +45,11 @@ struct LibraryContents {
 /// The differences between two fingerprints of build_fingerprint.h, as in `NDEBUG is undefined, expected 1`; empty if
 /// they are equal.
 [[nodiscard]] std::string fingerprintDifference(std::string_view got, std::string_view expected);
+
+/// Tries a task that may end its process, such as loading a library, in a copy of this process. Returns the result of
+/// `task` from a copy of this process. If the task ends the copy, returns how it ended and its last line on stderr: "a
+/// process that tried it ended by signal 11 (Segmentation fault)". SIGALRM ends the copy after a minute. Call before
+/// this process starts threads. Throws std::system_error if the copy cannot be made.
+[[nodiscard]] std::string triedInChild(const std::function<std::string()>& task);
 
 }  // namespace dustbench::bench

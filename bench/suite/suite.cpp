@@ -7,12 +7,10 @@
 #include <set>
 
 #include "bench/results/summary.h"
-#include "bench/suite/baselines.h"
-#include "bench/suite/cell_groups.h"
 #include "bench/suite/paper.h"
 #include "bench/suite/suite_draft.h"
-#include "bench/suite/suite_fit.h"
-#include "bench/suite/suite_verdicts.h"
+#include "bench/suite/suite_evaluation.h"
+#include "bench/suite/suite_plan.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/data_folder.h"

@@ -24,7 +24,7 @@ struct PlannedRun {
 };
 
 /// interleaved: every repetition is a round over all configurations. Each round shuffles the groups of configurations
-/// (cell_groups.h) with its own seed and runs those of a group one after the other, so that drift of the machine
+/// (suite_plan.h) with its own seed and runs those of a group one after the other, so that drift of the machine
 /// affects compared configurations equally. batch: all repetitions of a configuration, then the next configuration.
 enum class Order { interleaved, batch };
 inline constexpr Choices<Order> orders{{"interleaved", Order::interleaved}, {"batch", Order::batch}};
@@ -49,7 +49,7 @@ struct Suite {
     std::vector<PlannedRun> cells;  ///< one repetition each
     int repetitions = 1;
     Order order = Order::interleaved;
-    bool baseline = false;        ///< the null method also runs in every world (baselines.h)
+    bool baseline = false;        ///< the null method also runs in every world (suite_plan.h)
     double timeoutSeconds = 600;  ///< limit of one run
     ResourceLimits limits;        ///< limits of the process of one run
     double cooldownSeconds = 0;   ///< pause between two runs
@@ -65,7 +65,7 @@ struct Suite {
 /// One run of a configuration; repetitions count from 1. Only the first has metrics: pictures do not depend on the
 /// repetition.
 [[nodiscard]] RunSpec inRepetition(RunSpec cell, int repetition);
-/// All runs in order, including those of the null method (baselines.h).
+/// All runs in order, including those of the null method (suite_plan.h).
 [[nodiscard]] std::vector<PlannedRun> planRuns(const Suite& suite);
 
 /// One list of values per parameter, in order.

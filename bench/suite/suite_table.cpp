@@ -8,7 +8,7 @@
 
 #include "bench/measure/image/metric.h"
 #include "bench/measure/statistics.h"
-#include "bench/suite/suite_axes.h"
+#include "bench/suite/suite_cells.h"
 #include "methods/contract/stage_clock.h"
 
 namespace dustbench::bench {

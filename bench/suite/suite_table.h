@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/suite/cell_results.h"
 #include "bench/suite/suite.h"
+#include "bench/suite/suite_cells.h"
 
 namespace dustbench::bench {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "bench/results/summary.h"
-#include "bench/suite/suite_fit.h"
+#include "bench/suite/suite_evaluation.h"
 #include "methods/contract/errors.h"
 
 namespace dustbench::bench {

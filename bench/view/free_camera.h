@@ -3,7 +3,7 @@
 // Units: m, radians. Frame: world, +Y up.
 #pragma once
 
-#include "bench/scene/camera_path.h"
+#include "bench/scene/cameras.h"
 
 namespace dustbench::bench {
 

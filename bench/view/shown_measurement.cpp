@@ -6,8 +6,8 @@
 
 #include "bench/measure/statistics.h"
 #include "bench/results/compared_runs.h"
-#include "bench/suite/cell_results.h"
-#include "bench/suite/suite_verdicts.h"
+#include "bench/suite/suite_cells.h"
+#include "bench/suite/suite_evaluation.h"
 #include "methods/contract/errors.h"
 
 namespace dustbench::bench {

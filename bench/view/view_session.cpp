@@ -210,7 +210,7 @@ void ViewSession::step() {
     ++next_;
     ++moment_;
     if (state_.drive == keyboardDrive && isOfDrive) recording_.add(world_->controls());
-    // As in replay.h: a method is updated from the last step of the preroll on, or always if it requests that.
+    // As in replay(): a method is updated from the last step of the preroll on, or always if it requests that.
     for (ShownHalf& shown : halves_)
         if (shown.host && (frame() >= -state_.warmup - 1 || shown.host->method().wantsPreroll())) updateHalf(shown);
     if (groundTruth_.host && frame() >= -state_.warmup - 1) updateHalf(groundTruth_);

@@ -14,10 +14,9 @@
 #include <string>
 
 #include "bench/measure/clock.h"
-#include "bench/reference/judge/moment_metrics.h"
+#include "bench/reference/judge/judgement.h"
 #include "bench/run/method_host.h"
-#include "bench/scene/control_recording.h"
-#include "bench/scene/keyboard_controls.h"
+#include "bench/scene/control_source.h"
 #include "bench/scene/world.h"
 #include "bench/view/split_view.h"
 #include "bench/view/view_state.h"

@@ -12,7 +12,7 @@
 
 #include "bench/export/exporter.h"
 #include "bench/results/shell_words.h"
-#include "bench/scene/camera_path.h"
+#include "bench/scene/cameras.h"
 #include "bench/scene/world.h"
 #include "bench/suite/value_list.h"
 #include "methods/contract/errors.h"

@@ -30,7 +30,7 @@ struct HalfState {
 struct ViewState {
     std::string scene = "plain";
     std::string drive;       ///< a name, a file or keyboardDrive; empty: the scene's own
-    std::string cameraPath;  ///< file or rows (camera_path.h); empty: the camera of the world's parameters
+    std::string cameraPath;  ///< file or rows (cameras.h); empty: the camera of the world's parameters
     std::string dust;        ///< file of particles; empty: the scene's dust
     std::string dustColumns;
     ParameterTexts world;  ///< parameters of the world that are set

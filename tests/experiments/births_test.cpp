@@ -1,7 +1,7 @@
 // The births experiment in worlds that the harness provides.
 #include <gtest/gtest.h>
 
-#include "bench/claims/lent_context.h"
+#include "bench/claims/experiments.h"
 #include "methods/voxel_shape/births_experiment.h"
 
 namespace dustbench::voxel_shape::births {

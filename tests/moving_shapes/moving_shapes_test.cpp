@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "bench/claims/lent_context.h"
+#include "bench/claims/experiments.h"
 #include "bench/measure/image/picture_error.h"
 #include "methods/kit/draw/test_canvas.h"
 #include "methods/voxel_shape/voxel_shape.h"

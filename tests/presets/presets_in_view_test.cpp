@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "bench/claims/lent_context.h"
+#include "bench/claims/experiments.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/draw/test_canvas.h"
 #include "methods/kit/files/data_folder.h"

@@ -19,7 +19,7 @@
 #include <utility>
 
 #include "bench/scene/world.h"
-#include "bench/selfcheck/device_checks.h"
+#include "bench/selfcheck/machine_checks.h"
 #include "bench/view/split_view.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"

@@ -11,7 +11,7 @@
 
 #include "bench/export/collected_volume.h"
 #include "bench/measure/image/picture.h"
-#include "bench/reference/opaque_distances.h"
+#include "bench/reference/camera_rays.h"
 #include "methods/contract/view.h"
 
 namespace dustbench::bench {

@@ -12,7 +12,7 @@
 #include "bench/results/compared_runs.h"
 #include "bench/suite/catalogue.h"
 #include "bench/suite/planned_evaluation.h"
-#include "bench/suite/suite_axes.h"
+#include "bench/suite/suite_cells.h"
 #include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {

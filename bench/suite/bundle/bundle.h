@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/results/run_spec.h"
 #include "bench/results/stored_run.h"
 
 namespace dustbench::bench {
@@ -40,5 +41,20 @@ struct OpenedBundle {
 /// Extracts the archive below the folder and verifies it. Throws InputError with the first file that is damaged,
 /// missing, unlisted, or in conflict with the record of a run.
 [[nodiscard]] OpenedBundle openBundle(const std::filesystem::path& archive, const std::filesystem::path& below);
+
+/// Runs of one simulation, which differ only in repetition, threads, pictures or metrics, and what every machine
+/// reproduces of them bit for bit: the hash of the state after the last frame.
+struct ExactRun {
+    std::vector<std::string> runIds;    ///< runs that are done
+    std::string stateHash, methodHash;  ///< the same for all of them
+    RunSpec spec;                       ///< the minimum to repeat them: no pictures, volumes or metrics
+};
+
+/// Groups the runs that are done, in the order of run ids. Throws InputError if two runs of one simulation have
+/// different hashes, or if a run has no key.
+[[nodiscard]] std::vector<ExactRun> exactRuns(const StoredRuns& runs);
+
+/// `state_hash is 1, expected 2; method_hash …`; empty if both are the same.
+[[nodiscard]] std::string hashDifference(const StoredRun& got, const ExactRun& expected);
 
 }  // namespace dustbench::bench

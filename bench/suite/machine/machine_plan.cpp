@@ -7,8 +7,8 @@
 #include <set>
 #include <string_view>
 
-#include "bench/suite/baselines.h"
-#include "bench/suite/cell_results.h"
+#include "bench/suite/suite_cells.h"
+#include "bench/suite/suite_plan.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 #include "methods/kit/files/data_folder.h"

@@ -31,7 +31,7 @@ struct MachinePlan {
 /// The file itself, and those of its suites. Throws InputError.
 [[nodiscard]] std::vector<std::filesystem::path> machinePlanFiles();
 
-/// A cell with its place on a ladder; the null method's cells are among them (baselines.h). Each run once.
+/// A cell with its place on a ladder; the null method's cells are among them (withBaselines). Each run once.
 struct PlacedCell {
     PlannedRun run;
     LadderCell ladder;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/results/compared_runs.h"
-#include "bench/suite/cell_results.h"
+#include "bench/suite/suite_cells.h"
 
 namespace dustbench::bench {
 

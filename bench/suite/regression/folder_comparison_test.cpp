@@ -248,4 +248,5 @@ TEST(FolderComparison, RefusesARunThatDoesNotSayWhatItWas) {
 }
 
 }  // namespace
+
 }  // namespace dustbench::bench
