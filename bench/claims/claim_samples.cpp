@@ -9,9 +9,9 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <span>
-#include <sstream>
 #include <stdexcept>
 
 #include "bench/measure/cost_fit.h"
@@ -46,30 +46,37 @@ void replaceDepthByEdge(Selection& cell, const std::string& worldEdge) {
     if (world && levels) *depth = {std::string(voxelEdgeColumn), fmt::format("{:g}", *world / std::exp2(*levels))};
 }
 
-/// Collects values by key, and finally turns the keys into cells.
+template <typename Value>
+std::vector<Cell> cellsOf(const std::map<Cell, Value>& map) {
+    const auto cells = std::views::keys(map);
+    return {cells.begin(), cells.end()};
+}
+
+/// Collects the values of each cell.
 class SampleTable {
  public:
     SampleTable(const Rule& rule, const ResultRows& rows) : rule_(rule), rows_(rows), within_(columnsWithin(rule)) {}
 
-    [[nodiscard]] std::string keyOf(std::size_t row) const { return rows_.cellKey(row, within_); }
+    [[nodiscard]] Cell cellOf(std::size_t row) const { return rows_.cellOf(row, within_); }
+    [[nodiscard]] Cell cellOf(std::size_t row, std::size_t second) const {
+        return {cellOf(row).values, cellOf(second).values};
+    }
     [[nodiscard]] std::int64_t turnOf(std::size_t row) const {
         if (rule_.over != Chance::seeds) return rows_.repetition(row);
         return static_cast<std::int64_t>(std::clamp(rows_.number(row, "seed").value_or(1), 0.0, 9e18));
     }
-    void add(const std::string& key, std::int64_t turn, double numerator, double denominator = 1) {
-        values_[key][turn].push_back({numerator, denominator});
+    void add(const Cell& cell, std::int64_t turn, double numerator, double denominator = 1) {
+        values_[cell][turn].push_back({numerator, denominator});
     }
     [[nodiscard]] bool empty() const { return values_.empty(); }
 
     /// Averages the values of each cell and turn. If the quantity does not vary between repetitions, takes the first.
     void giveTo(ClaimSamples& samples) const {
-        std::vector<std::string> keys;
-        keys.reserve(values_.size());
-        for (const auto& [key, turns] : values_) keys.push_back(key);
-        for (const auto& [key, turns] : values_) {
-            samples.cells.push_back(rows_.cellValues(key, keys));
+        const std::vector<Cell> cells = cellsOf(values_);
+        for (const auto& [cell, turns] : values_) {
+            samples.cells.push_back(rows_.valuesThatDiffer(cell, cells));
             if (rule_.along == voxelEdgeColumn)
-                replaceDepthByEdge(samples.cells.back(), rows_.valueIn(key, "p.world_edge"));
+                replaceDepthByEdge(samples.cells.back(), rows_.valueIn(cell, "p.world_edge"));
             for (const auto& [turn, list] : turns) {
                 const bool once = rule_.over != Chance::repetitions;
                 samples.list.push_back(meanOf(once ? std::span(list).first(1) : std::span(list)));
@@ -98,7 +105,7 @@ class SampleTable {
     const Rule& rule_;
     const ResultRows& rows_;
     std::set<std::string> within_;
-    std::map<std::string, std::map<std::int64_t, std::vector<Fraction>>> values_;
+    std::map<Cell, std::map<std::int64_t, std::vector<Fraction>>> values_;
 };
 
 std::optional<double> valueOf(const Rule& rule, const ResultRows& rows, std::size_t row) {
@@ -146,7 +153,7 @@ void addRatios(const Rule& rule, const ResultRows& rows, SampleTable& table, Cla
             if (x == 0 && y == 0)
                 ++samples.undefined;
             else
-                table.add(table.keyOf(a) + table.keyOf(b), table.turnOf(a), x, y);
+                table.add(table.cellOf(a, b), table.turnOf(a), x, y);
         }
     if (table.empty() && samples.missing.empty())
         samples.missing = fmt::format("no run of {} matches a run of {} with a {} above 0", textOf(rule.of),
@@ -184,7 +191,7 @@ void addMatched(const Rule& rule, const ResultRows& rows, SampleTable& table, Cl
         }
         if (!match || *match == 0) continue;  // at 0 any sufficient load matches
         if (const auto value = valueAtMatch(std::move(curve), *match))
-            table.add(table.keyOf(a), table.turnOf(a), *valueOf(rule, rows, a) / *value);
+            table.add(table.cellOf(a), table.turnOf(a), *valueOf(rule, rows, a) / *value);
         else
             ++samples.unmatched;
     }
@@ -198,23 +205,23 @@ void addShares(const Rule& rule, const ResultRows& rows, SampleTable& table, Cla
         double sum = 0;
         for (const std::string& part : rule.parts) sum += rows.number(row, part).value_or(0);
         if (const double whole = *valueOf(rule, rows, row); whole != 0)
-            table.add(table.keyOf(row), table.turnOf(row), sum, whole);
+            table.add(table.cellOf(row), table.turnOf(row), sum, whole);
     }
 }
 
 void addValues(const Rule& rule, const ResultRows& rows, SampleTable& table, ClaimSamples& samples) {
     for (const std::size_t row : rowsWith(rule, rule.of, rows, samples))
-        table.add(table.keyOf(row), table.turnOf(row), *valueOf(rule, rows, row));
+        table.add(table.cellOf(row), table.turnOf(row), *valueOf(rule, rows, row));
 }
 
 /// Points of the curves, one curve for each cell and turn.
-using Curves = std::map<std::pair<std::string, std::int64_t>, std::vector<CostPoint>>;
+using Curves = std::map<std::pair<Cell, std::int64_t>, std::vector<CostPoint>>;
 
 Curves curvesOf(const Rule& rule, const ResultRows& rows, const SampleTable& table, ClaimSamples& samples) {
     Curves curves;
     for (const std::size_t row : rowsWith(rule, rule.of, rows, samples))
         if (const auto load = rows.number(row, rule.against))
-            curves[{table.keyOf(row), table.turnOf(row)}].push_back({*load, *valueOf(rule, rows, row)});
+            curves[{table.cellOf(row), table.turnOf(row)}].push_back({*load, *valueOf(rule, rows, row)});
     return curves;
 }
 
@@ -312,42 +319,33 @@ bool ResultRows::correspond(std::size_t a, std::size_t b, const std::set<std::st
     });
 }
 
-std::string ResultRows::cellKey(std::size_t row, const std::set<std::string>& except) const {
-    std::string key;
+Cell ResultRows::cellOf(std::size_t row, const std::set<std::string>& except) const {
+    Cell cell;
     for (const std::string& column : identity_)
-        key.append(except.contains(column) ? "" : table_.cell(row, column)).append(1, '\n');
-    return key;
+        cell.values.push_back(except.contains(column) ? "" : table_.cell(row, column));
+    return cell;
 }
 
-std::string ResultRows::valueIn(const std::string& key, std::string_view column) const {
-    std::istringstream values(key);
-    std::string value;
-    for (const std::string& each : identity_) {
-        std::getline(values, value);
-        if (each == column) return value;
+std::string ResultRows::valueIn(const Cell& cell, std::string_view column) const {
+    const auto found = std::ranges::find(identity_, column);
+    return found == identity_.end() ? "" : cell.values[static_cast<std::size_t>(found - identity_.begin())];
+}
+
+Selection ResultRows::valuesThatDiffer(const Cell& cell, const std::vector<Cell>& cells) const {
+    const auto differs = [&](auto values, std::size_t column) {
+        return std::ranges::any_of(cells, [&](const Cell& other) {
+            return column < (other.*values).size() && (other.*values)[column] != (cell.*values)[column];
+        });
+    };
+    Selection chosen;
+    for (std::size_t c = 0; c < cell.values.size(); ++c)
+        if (!cell.values[c].empty() && differs(&Cell::values, c)) chosen.emplace_back(identity_[c], cell.values[c]);
+    for (std::size_t c = 0; c < cell.second.size(); ++c) {
+        const std::string &value = cell.second[c], &column = identity_[c];
+        if (value.empty() || value == cell.values[c] || !differs(&Cell::second, c)) continue;
+        chosen.emplace_back("with " + (column.starts_with("p.") ? column.substr(2) : column), value);
     }
-    return {};
-}
-
-Selection ResultRows::cellValues(const std::string& key, const std::vector<std::string>& keys) const {
-    std::vector<std::istringstream> others(keys.begin(), keys.end());
-    std::istringstream own(key);
-    Selection values;
-    std::map<std::string, std::string> first;
-    for (bool isSecond = false; own.peek() != std::istringstream::traits_type::eof(); isSecond = true)
-        for (const std::string& column : identity_) {
-            std::string value, other;
-            std::getline(own, value);
-            bool differs = false;
-            for (std::istringstream& stream : others) differs |= std::getline(stream, other) && other != value;
-            if (!isSecond) first[column] = value;
-            if (!differs || value.empty()) continue;
-            if (!isSecond)
-                values.emplace_back(column, value);
-            else if (first[column] != value)
-                values.emplace_back("with " + (column.starts_with("p.") ? column.substr(2) : column), value);
-        }
-    return values;
+    return chosen;
 }
 
 ClaimSamples samplesOf(const Rule& rule, const ResultRows& rows) {
@@ -384,14 +382,12 @@ ClaimSamples samplesOf(const Rule& rule, const ResultRows& rows) {
 
 CostCurves costCurvesOf(const Rule& rule, const ResultRows& rows) {
     CostCurves result;
-    std::map<std::string, std::vector<CostPoint>> byKey;
+    std::map<Cell, std::vector<CostPoint>> curves;
     for (const std::size_t row : rowsWith(rule, rule.of, rows, result))
         if (const auto load = rows.number(row, rule.against))
-            byKey[rows.cellKey(row, columnsWithin(rule))].push_back({*load, *valueOf(rule, rows, row)});
-    std::vector<std::string> keys;
-    keys.reserve(byKey.size());
-    for (const auto& [key, points] : byKey) keys.push_back(key);
-    for (const auto& [key, points] : byKey) result.curves.push_back({rows.cellValues(key, keys), points});
+            curves[rows.cellOf(row, columnsWithin(rule))].push_back({*load, *valueOf(rule, rows, row)});
+    const std::vector<Cell> cells = cellsOf(curves);
+    for (const auto& [cell, points] : curves) result.curves.push_back({rows.valuesThatDiffer(cell, cells), points});
     makeSortedUnique(result.rows);
     return result;
 }

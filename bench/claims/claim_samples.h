@@ -4,6 +4,7 @@
 // Rows that differ only in the repetition form a cell (configuration) of the experiment. Threads: pure.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -17,6 +18,13 @@
 #include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
+
+/// A configuration: the values of the columns that distinguish rows, in the order of the table. Of a pair of rows, also
+/// those of the second row.
+struct Cell {
+    std::vector<std::string> values, second{};
+    auto operator<=>(const Cell&) const = default;
+};
 
 /// The rows of completed runs in a summary.csv.
 class ResultRows {
@@ -38,14 +46,13 @@ class ResultRows {
     /// True if both rows have the same world, repetition and settings, except for the columns in `named` and those that
     /// are empty in one of them.
     [[nodiscard]] bool correspond(std::size_t a, std::size_t b, const std::set<std::string>& named) const;
-    /// Identifies the cell of a row, without the columns `except`.
-    [[nodiscard]] std::string cellKey(std::size_t row, const std::set<std::string>& except) const;
-    /// The value of a column in a key of `cellKey`; for a pair of rows, that of the first.
-    [[nodiscard]] std::string valueIn(const std::string& key, std::string_view column) const;
-    /// The columns and values that distinguish a cell from the others with these keys: `p.particles` 500, `p.speed` 40.
-    /// A key may consist of the keys of a pair of rows. Columns in which the second row differs from the first then
-    /// appear with the prefix `with `.
-    [[nodiscard]] Selection cellValues(const std::string& key, const std::vector<std::string>& keys) const;
+    /// The cell of a row. The columns `except` are empty in it.
+    [[nodiscard]] Cell cellOf(std::size_t row, const std::set<std::string>& except) const;
+    /// The value of a column; for a pair of rows, that of the first. Empty if the column does not distinguish rows.
+    [[nodiscard]] std::string valueIn(const Cell& cell, std::string_view column) const;
+    /// The columns and values that distinguish a cell from the others: `p.particles` 500, `p.speed` 40. Columns in
+    /// which the second row of a pair differs from the first appear with the prefix `with `.
+    [[nodiscard]] Selection valuesThatDiffer(const Cell& cell, const std::vector<Cell>& cells) const;
 
  private:
     [[nodiscard]] bool matches(std::size_t row, const Selection& selection) const;

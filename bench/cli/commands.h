@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/cli/arguments.h"
+#include "bench/run/run_messages.h"
 
 namespace dustbench::cli {
 
@@ -18,6 +19,10 @@ enum ExitCode {
     exitNothingFits = 5,  ///< like a regression, a requested limit is not met
     exitNotComparable = 6,
 };
+
+/// What the exception being handled means.
+[[nodiscard]] bench::RunError errorOfException();
+[[nodiscard]] ExitCode exitCodeOf(bench::RunError::Kind kind);
 
 [[nodiscard]] Command listCommand();
 [[nodiscard]] Command envCommand();

@@ -6,12 +6,10 @@
 #include <cerrno>
 #include <cstring>
 #include <exception>
-#include <filesystem>
 #include <iostream>
 #include <iterator>
 #include <list>
 #include <memory>
-#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,7 +17,6 @@
 #include "bench/cli/commands.h"
 #include "bench/measure/provenance.h"
 #include "bench/suite/method_libraries.h"
-#include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/machine_error.h"
 #include "methods/kit/files/printable.h"
@@ -29,14 +26,11 @@ namespace dustbench::cli {
 namespace {
 
 /// Prints one line to stderr, even if the message quotes line breaks or control characters from a file.
-void say(std::string_view message, std::string_view kind = "") {
-    std::cerr << "dustbench: " << kind << files::printable(message) << std::endl;
-}
-
-/// For errors of the machine, such as a full disk. Finished results are kept; the file being written is removed.
-int abort(std::string_view what) {
-    say(what, "aborted: ");
-    return exitAborted;
+void say(const bench::RunError& error) {
+    using Kind = bench::RunError::Kind;
+    const bool isOfMachine = error.kind == Kind::machine || error.kind == Kind::memory;
+    const std::string_view kind = isOfMachine ? "aborted: " : error.kind == Kind::internal ? "internal error: " : "";
+    std::cerr << "dustbench: " << kind << files::printable(error.message) << std::endl;
 }
 
 /// `--adapter`, `--data` and `--method-path`, for this process and its children.
@@ -85,10 +79,8 @@ void requireWritten() {
 }
 
 int run(const std::vector<std::string>& argv) {
-    if (!argv.empty() && (argv.front() == measureRunName || argv.front() == forecastRunName)) {
-        bench::loadMethodLibraries();
-        return argv.front() == measureRunName ? measureRunCommand(argv) : forecastRunCommand(argv);
-    }
+    if (!argv.empty() && argv.front() == measureRunName) return measureRunCommand(argv);
+    if (!argv.empty() && argv.front() == forecastRunName) return forecastRunCommand(argv);
     std::vector<Command> commands{listCommand(),          envCommand(),    runCommand(),    compareCommand(),
                                   recommendCommand(),     suiteCommand(),  mergeCommand(),  reproduceCommand(),
                                   reportCommand(),        exportCommand(), diffCommand(),   viewCommand(),
@@ -110,23 +102,9 @@ int main(int argc, char** argv) {
         const int code = cli::run({argv + std::min(argc, 1), argv + argc});
         cli::requireWritten();
         return code;
-    } catch (const InputError& error) {
-        cli::say(error.what());
-        return cli::exitBadInput;
-    } catch (const std::filesystem::filesystem_error& error) {
-        const std::string message = "'" + error.path1().string() + "': " + error.code().message();
-        if (files::isOfMachine(error.code().value())) return cli::abort(message);
-        cli::say(message);
-        return cli::exitBadInput;
-    } catch (const SimulationError& error) {
-        cli::say(error.what());
-        return cli::exitRunFailed;
-    } catch (const files::MachineError& error) {
-        return cli::abort(error.what());
-    } catch (const std::bad_alloc&) {
-        return cli::abort(files::outOfMemory);
-    } catch (const std::exception& error) {
-        cli::say(error.what(), "internal error: ");
-        return cli::exitInternal;
+    } catch (const std::exception&) {
+        const bench::RunError error = cli::errorOfException();
+        cli::say(error);
+        return cli::exitCodeOf(error.kind);
     }
 }

@@ -3,13 +3,14 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <iostream>
+#include <exception>
 
 #include "bench/cli/commands.h"
 #include "bench/results/results_folder.h"
 #include "bench/run/measured_run.h"
-#include "bench/run/plan_forecast.h"
 #include "bench/run/run_forecast.h"
+#include "bench/run/run_messages.h"
+#include "bench/suite/method_libraries.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/whole_text.h"
 
@@ -22,9 +23,13 @@ bench::RunSpec specOf(const std::vector<std::string>& argv) {
     return bench::specFromJson(files::wholeText(argv[1], "a run's specification"));
 }
 
-}  // namespace
+/// Not buffered: the parent process waits for it.
+void send(const std::string& line) {
+    [[maybe_unused]] const auto written = write(STDOUT_FILENO, line.data(), line.size());
+}
 
-int measureRunCommand(const std::vector<std::string>& argv) {
+void measure(const std::vector<std::string>& argv) {
+    bench::loadMethodLibraries();
     const bench::RunSpec spec = specOf(argv);
     const std::filesystem::path folder = argv[2];
 
@@ -33,17 +38,28 @@ int measureRunCommand(const std::vector<std::string>& argv) {
         const auto now = std::chrono::steady_clock::now();
         if (now - lastSaid < std::chrono::milliseconds(100) && done != total) return;
         lastSaid = now;
-        const std::string line = std::string(phase) + " " + std::to_string(done) + " " + std::to_string(total) + "\n";
-        [[maybe_unused]] const auto written = write(STDOUT_FILENO, line.data(), line.size());
+        send(bench::lineOf(phase, done, total));
     };
     const bench::RunRecord record =
         bench::measureRun(spec, folder, {argv.begin() + 4, argv.end()}, progress, bench::referencesBeside(folder));
     bench::writeWhole(folder / "run.json", bench::toJson(record));
+}
+
+}  // namespace
+
+int measureRunCommand(const std::vector<std::string>& argv) {
+    try {
+        measure(argv);
+    } catch (const std::exception&) {
+        send(bench::lineOf(errorOfException()));
+        throw;
+    }
     return exitOk;
 }
 
 int forecastRunCommand(const std::vector<std::string>& argv) {
-    std::cout << bench::forecastLine(bench::forecastRun(specOf(argv), argv[2])) << std::endl;
+    bench::loadMethodLibraries();
+    send(bench::lineOf(bench::forecastRun(specOf(argv), argv[2])));
     return exitOk;
 }
 

@@ -15,6 +15,7 @@
 #include "bench/results/summary.h"
 #include "bench/run/child_process.h"
 #include "bench/run/run_forecast.h"
+#include "bench/run/run_messages.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/machine_error.h"
 
@@ -104,24 +105,21 @@ void keepReason(const fs::path& folder, const RunSpec& spec, RunStatus status, c
     writeWhole(folder / "run.json", toJson(record));
 }
 
-constexpr int aborted = 2, badInput = 3;  // exit codes of a run's process
-
-/// The last line of the process, without the program's name.
-std::string wordsOf(const ChildOutcome& outcome, std::string_view prefix) {
-    const std::string& words = outcome.lastWords;
-    return words.starts_with(prefix) ? words.substr(prefix.size()) : words;
+/// True if memory ran out below the run's own limit.
+bool exceedsMemoryLimit(const RunError& error, const ResourceLimits& limits) {
+    return error.kind == RunError::Kind::memory && limits.memoryMegabytes > 0;
 }
 
-/// Throws MachineError if the machine lacked something, which is why the process aborted.
-void requireMachine(const ChildOutcome& outcome, const ResourceLimits& limits) {
-    if (outcome.end != ChildOutcome::End::exited || outcome.code != aborted) return;
-    const std::string what = wordsOf(outcome, "dustbench: aborted: ");
-    if (limits.memoryMegabytes > 0 && what.starts_with(files::outOfMemory)) return;  // the run's own limit
-    throw files::MachineError(what.empty() ? "a run aborted without an error message" : what);
+/// Throws what concerns the whole plan: MachineError if the machine lacked something; InputError if `badInputEnds`.
+void requireOtherRunsPossible(const RunError& error, const ExecutionOptions& options) {
+    using Kind = RunError::Kind;
+    if (error.kind == Kind::input && options.badInputEnds) throw InputError(error.message);
+    if (error.kind == Kind::machine || (error.kind == Kind::memory && !exceedsMemoryLimit(error, options.limits)))
+        throw files::MachineError(error.message);
 }
 
-std::string reasonOf(const ChildOutcome& outcome, const ResourceLimits& limits) {
-    if (outcome.end == ChildOutcome::End::exited && outcome.code == aborted)
+std::string reasonOf(const ChildOutcome& outcome, const std::optional<RunError>& error, const ResourceLimits& limits) {
+    if (error && exceedsMemoryLimit(*error, limits))
         return fmt::format("exceeds the memory limit of {} MB (memory_limit_mb)", limits.memoryMegabytes);
     if (outcome.end == ChildOutcome::End::killedBySignal && outcome.code == SIGXCPU && limits.cpuSeconds > 0)
         return fmt::format("exceeds the limit of {} s of processor time (cpu_limit_s)", limits.cpuSeconds);
@@ -192,6 +190,10 @@ class RunInProgress {
         command.limits = options_.limits;
         command.interrupted = options_.interrupted;
         command.onLine = [this, &listener](std::string_view line) {
+            if (auto error = errorIn(line)) {
+                error_ = std::move(error);
+                return;
+            }
             if (!line.empty()) progress_ = line;
             listener.progressed(line);
         };
@@ -201,11 +203,7 @@ class RunInProgress {
     [[nodiscard]] fs::path log() const { return folder_ / "log.txt"; }
 
     void keep(const ChildOutcome& outcome) {
-        using End = ChildOutcome::End;
-        requireMachine(outcome, options_.limits);
-        if (options_.badInputEnds && outcome.end == End::exited && outcome.code == badInput)
-            throw InputError(outcome.lastWords.empty() ? "the run ended with exit code 3 and no error message"
-                                                       : wordsOf(outcome, "dustbench: "));
+        if (error_ && outcome.end == ChildOutcome::End::exited) requireOtherRunsPossible(*error_, options_);
 
         if (!fs::exists(specFile())) throw cannotWrite(folder_, "it was removed while a run was being written there");
         fs::remove(specFile());
@@ -214,9 +212,11 @@ class RunInProgress {
             requireRoom(results_, reserveBytes);
             requireWritable(folder_);
         }
-        const std::string fault = outcome.succeeded() ? faultOf(folder_, id_) : reasonOf(outcome, options_.limits);
+        const std::string fault =
+            outcome.succeeded() ? faultOf(folder_, id_) : reasonOf(outcome, error_, options_.limits);
         if (!fault.empty()) {
-            const RunStatus status = outcome.end == End::timedOut ? RunStatus::timeout : RunStatus::failed;
+            const RunStatus status =
+                outcome.end == ChildOutcome::End::timedOut ? RunStatus::timeout : RunStatus::failed;
             std::string reason = fault;
             if (status == RunStatus::timeout) reason += progress_.empty() ? "" : " (at " + progress_ + ")";
             keepReason(folder_, run_.spec, status, reason, options_);
@@ -231,7 +231,8 @@ class RunInProgress {
     ResultsFolder& results_;
     const ExecutionOptions& options_;
     fs::path folder_;
-    std::string progress_;  ///< last progress line of the process
+    std::string progress_;           ///< last progress line of the process
+    std::optional<RunError> error_;  ///< why the process ended
     Clock::time_point start_ = Clock::now();
     std::unique_ptr<ChildProcess> child_;  ///< none if the suite excludes the run
     bool finished_ = false;

@@ -49,7 +49,8 @@ struct ExecutionOptions {
     /// Forecasts known before the first run.
     ForecastByCell forecasts;
     std::function<bool()> interrupted;
-    /// If set, exit code 3 of a run means a user error: nothing is stored, and InputError is thrown with its last line.
+    /// If set, a run that ends for bad input ends the plan: nothing is stored, and InputError is thrown with its
+    /// message.
     bool badInputEnds = false;
 };
 

@@ -121,10 +121,10 @@ TEST_F(Executor, RunsSeveralAtATimeIfAsked) {
 TEST_F(Executor, OfSeveralAtATimeOneFaultOfTheMachineStopsAllAndLeavesNothingHalfDone) {
     fs::create_directory(folder_ / "there");
     // One of three aborts once all three have started; the others would never end.
-    ExecutionOptions options = shell(
-        meeting(folder_ / "there", 3) +
-        fmt::format("mkdir {0} 2>/dev/null && {{ echo 'dustbench: aborted: no more ink' >&2; exit 2; }}; sleep 600",
-                    (folder_ / "first").string()));
+    ExecutionOptions options =
+        shell(meeting(folder_ / "there", 3) +
+              fmt::format("mkdir {0} 2>/dev/null && {{ echo 'error machine no more ink'; exit 2; }}; sleep 600",
+                          (folder_ / "first").string()));
     options.simultaneous = 3;
     EXPECT_THROW((void)runAll(options), files::MachineError);
     EXPECT_FALSE(fs::exists(out()));
@@ -212,7 +212,7 @@ TEST_F(Executor, AChildWithoutAResultHasFailed) {
 }
 
 TEST_F(Executor, BadInputEndsThePlanWithTheChildsWords) {
-    ExecutionOptions options = shell("echo 'dustbench: no such thing' >&2; exit 3");
+    ExecutionOptions options = shell("echo 'error input no such thing'; exit 3");
     options.badInputEnds = true;
     try {
         (void)runAll(options);

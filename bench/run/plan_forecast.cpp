@@ -5,35 +5,21 @@
 #include <chrono>
 #include <map>
 #include <optional>
-#include <sstream>
 
 #include "bench/run/child_process.h"
 #include "bench/run/progress.h"
 #include "bench/run/run_forecast.h"
+#include "bench/run/run_messages.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr std::string_view lineStart = "forecast ";
-
-std::optional<RunForecast> parseForecast(std::string_view line) {
-    if (!line.starts_with(lineStart)) return {};
-    std::istringstream words{std::string(line.substr(lineStart.size()))};
-    RunForecast forecast;
-    if (!(words >> forecast.measuring >> forecast.metricPlan)) return {};
-    return forecast;
-}
 
 std::string nameOf(const PlannedRun& run) {
     return run.spec.method + " " + run.spec.scene + (run.label.empty() ? "" : " " + run.label);
 }
 
 }  // namespace
-
-std::string forecastLine(const RunForecast& forecast) {
-    return fmt::format("{}{:.3f} {:.3f}", lineStart, forecast.measuring, forecast.metricPlan);
-}
 
 PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& results, ExecutionOptions& options,
                           ExecutionListener& listener) {
@@ -62,7 +48,7 @@ PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& re
         command.limits = options.limits;
         command.interrupted = options.interrupted;
         command.onLine = [&](std::string_view line) {
-            if (const auto parsed = parseForecast(line)) forecast = parsed;
+            if (const auto parsed = forecastIn(line)) forecast = parsed;
             listener.progressed("");
         };
         const auto start = Clock::now();

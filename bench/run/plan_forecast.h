@@ -4,7 +4,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "bench/run/executor.h"
@@ -18,9 +17,6 @@ struct PlanForecast {
     std::vector<std::string> warnings{};
     bool aborted = false;
 };
-
-/// The line that a forecasting process prints on stdout.
-[[nodiscard]] std::string forecastLine(const RunForecast& forecast);
 
 /// Sets `options.forecasts` for all runs to do; the listener hears `begun 3 48`.
 [[nodiscard]] PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& results,
