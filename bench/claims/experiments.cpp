@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "bench/scene/world.h"
+#include "bench/world/world.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/csv.h"
 

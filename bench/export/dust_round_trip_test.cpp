@@ -3,7 +3,7 @@
 
 #include "bench/export/exporter.h"
 #include "bench/export/format_writers.h"
-#include "bench/scene/world.h"
+#include "bench/world/world.h"
 #include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {

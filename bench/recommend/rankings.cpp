@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "bench/measure/statistics.h"
-#include "bench/scene/world.h"
+#include "bench/world/world.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "bench/export/exporter.h"
-#include "bench/scene/world.h"
+#include "bench/world/world.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/csv.h"

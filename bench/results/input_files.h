@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/measure/provenance.h"
-#include "bench/scene/world.h"
+#include "bench/world/world.h"
 #include "methods/contract/parameters.h"
 #include "methods/kit/files/input_log.h"
 

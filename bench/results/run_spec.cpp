@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "bench/measure/sha256.h"
-#include "bench/scene/time_step.h"
-#include "bench/scene/world.h"
+#include "bench/world/time_step.h"
+#include "bench/world/world.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/particles/particle_store.h"

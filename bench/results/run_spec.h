@@ -11,7 +11,7 @@
 
 #include "bench/export/volume_settings.h"
 #include "bench/reference/judge/judging_plan.h"
-#include "bench/scene/given_dust.h"
+#include "bench/world/given_dust.h"
 #include "methods/contract/method.h"
 #include "methods/contract/parameters.h"
 

@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "bench/scene/world.h"
+#include "bench/world/world.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/testing/test_input_error.h"
 

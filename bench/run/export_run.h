@@ -8,7 +8,7 @@
 
 #include "bench/results/run_spec.h"
 #include "bench/run/measured_run.h"
-#include "bench/scene/world.h"
+#include "bench/world/world.h"
 
 namespace dustbench::bench {
 

@@ -18,7 +18,7 @@
 #include "bench/measure/frame_record.h"
 #include "bench/results/run_spec.h"
 #include "bench/run/method_host.h"
-#include "bench/scene/world.h"
+#include "bench/world/world.h"
 #include "methods/contract/stage_clock.h"
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/device.h"

@@ -12,7 +12,7 @@
 #include "bench/reference/judge/moment_pictures.h"
 #include "bench/results/run_record.h"
 #include "bench/results/run_spec.h"
-#include "bench/scene/world.h"
+#include "bench/world/world.h"
 #include "methods/contract/method.h"
 #include "methods/kit/draw/layer_blend.h"
 #include "methods/kit/draw/opaque_scene.h"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "bench/results/compared_runs.h"
-#include "bench/scene/world.h"
+#include "bench/world/world.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 

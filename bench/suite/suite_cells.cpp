@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "bench/scene/world.h"
+#include "bench/world/world.h"
 #include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {

@@ -8,7 +8,7 @@
 
 #include "bench/measure/statistics.h"
 #include "bench/results/run_record.h"
-#include "bench/scene/world.h"
+#include "bench/world/world.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 

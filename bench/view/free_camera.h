@@ -3,7 +3,7 @@
 // Units: m, radians. Frame: world, +Y up.
 #pragma once
 
-#include "bench/scene/cameras.h"
+#include "bench/world/cameras.h"
 
 namespace dustbench::bench {
 

@@ -16,10 +16,10 @@
 #include "bench/measure/clock.h"
 #include "bench/reference/judge/judgement.h"
 #include "bench/run/method_host.h"
-#include "bench/scene/control_source.h"
-#include "bench/scene/world.h"
 #include "bench/view/split_view.h"
 #include "bench/view/view_state.h"
+#include "bench/world/control_source.h"
+#include "bench/world/world.h"
 #include "methods/kit/gpu/device.h"
 
 namespace dustbench::bench {

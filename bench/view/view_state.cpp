@@ -12,9 +12,9 @@
 
 #include "bench/export/exporter.h"
 #include "bench/results/shell_words.h"
-#include "bench/scene/cameras.h"
-#include "bench/scene/world.h"
 #include "bench/suite/value_list.h"
+#include "bench/world/cameras.h"
+#include "bench/world/world.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/toml_reader.h"

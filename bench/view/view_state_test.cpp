@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "bench/results/shell_words.h"
-#include "bench/scene/world.h"
+#include "bench/world/world.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/csv.h"
 #include "methods/kit/testing/test_input_error.h"

@@ -36,7 +36,7 @@ std::string territoryOf(const std::string& path) {
 }
 
 /// The modules of bench/: each may use those before it.
-constexpr std::array<std::string_view, 12> benchRooms{"scene",  "measure", "export", "reference", "results",   "suite",
+constexpr std::array<std::string_view, 12> benchRooms{"world",  "measure", "export", "reference", "results",   "suite",
                                                       "claims", "run",     "view",   "report",    "recommend", "cli"};
 
 /// The position of a module of bench/ in that order; nothing for other files.

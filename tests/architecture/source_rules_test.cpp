@@ -44,8 +44,8 @@ TEST(SourceRules, LetAMethodIncludeItselfAndWhatIsShared) {
 }
 
 TEST(SourceRules, RefuseTheHarnessInMethods) {
-    EXPECT_THAT(includesOf("methods/billboard/a.cpp", "bench/scene/world.h"), SizeIs(1));
-    EXPECT_THAT(includesOf("methods/kit/draw/a.h", "bench/scene/world.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("methods/billboard/a.cpp", "bench/world/world.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("methods/kit/draw/a.h", "bench/world/world.h"), SizeIs(1));
     EXPECT_THAT(includesOf("methods/kit/draw/a.h", "tests/architecture/source_rules.h"), SizeIs(1));
 }
 
@@ -63,8 +63,8 @@ TEST(SourceRules, RefuseAMethodInWhatIsShared) {
 TEST(SourceRules, LetTheHarnessKnowMethodsThroughTheRegistryAlone) {
     EXPECT_THAT(includesOf("bench/run/a.cpp", "methods/billboard/b.h"), SizeIs(1));
     EXPECT_THAT(includesOf("bench/run/a.cpp", "methods/contract/registry.h"), IsEmpty());
-    EXPECT_THAT(includesOf("bench/run/a.cpp", "bench/scene/world.h"), IsEmpty());
-    EXPECT_THAT(includesOf("bench/scene/a.cpp", "bench/run/executor.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("bench/run/a.cpp", "bench/world/world.h"), IsEmpty());
+    EXPECT_THAT(includesOf("bench/world/a.cpp", "bench/run/executor.h"), SizeIs(1));
     EXPECT_THAT(includesOf("bench/results/a.cpp", "bench/suite/suite.h"), SizeIs(1));
 }
 

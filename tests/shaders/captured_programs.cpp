@@ -18,9 +18,9 @@
 #include <string_view>
 #include <utility>
 
-#include "bench/scene/world.h"
 #include "bench/selfcheck/machine_checks.h"
 #include "bench/view/split_view.h"
+#include "bench/world/world.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/draw/layer_blend.h"

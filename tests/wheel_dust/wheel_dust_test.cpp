@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bench/results/run_spec.h"
-#include "bench/scene/world.h"
+#include "bench/world/world.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/draw/test_canvas.h"
 #include "source_folder.h"

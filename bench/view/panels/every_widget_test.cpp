@@ -5,9 +5,9 @@
 
 #include <random>
 
-#include "bench/scene/world.h"
 #include "bench/view/panels/panel_canvas.h"
 #include "bench/view/panels/panels_fixture.h"
+#include "bench/world/world.h"
 #include "methods/kit/files/data_folder.h"
 
 namespace dustbench::bench {

@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <random>
 
-#include "bench/scene/world.h"
 #include "bench/view/panels/cost_panel.h"
 #include "bench/view/panels/panels_fixture.h"
+#include "bench/world/world.h"
 #include "methods/contract/registry.h"
 
 namespace dustbench::bench {

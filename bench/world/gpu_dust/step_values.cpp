@@ -1,0 +1,197 @@
+#include "bench/world/gpu_dust/step_values.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+
+#include "methods/kit/maths/bezier.h"
+#include "methods/kit/maths/sampling.h"
+#include "methods/kit/maths/turbulence.h"
+#include "methods/kit/particles/part_parameters.h"
+
+namespace dustbench::bench {
+namespace {
+
+using particles::Part;
+using particles::PartKind;
+using particles::PartList;
+
+struct ShadedPart {
+    PartKind kind;
+    std::string_view name;
+};
+/// Emission runs on the CPU: it yields a number of births and their times. Render parts only describe the drawing.
+constexpr std::array shadedParts{
+    ShadedPart{PartKind::position, "point"}, ShadedPart{PartKind::position, "disc"},
+    ShadedPart{PartKind::velocity, "cone"},  ShadedPart{PartKind::colour, "constant"},
+    ShadedPart{PartKind::colour, "bands"},   ShadedPart{PartKind::size, "constant"},
+    ShadedPart{PartKind::size, "linear"},    ShadedPart{PartKind::life, "lifetime"},
+    ShadedPart{PartKind::force, "wind"},     ShadedPart{PartKind::force, "gravity"},
+    ShadedPart{PartKind::force, "constant"}, ShadedPart{PartKind::force, "drag"},
+    ShadedPart{PartKind::force, "ground"},
+};
+
+bool hasShader(const Part& part) {
+    if (part.kind() == PartKind::emission || part.kind() == PartKind::render) return true;
+    return std::ranges::any_of(shadedParts, [&part](const ShadedPart& shaded) {
+        return shaded.kind == part.kind() && shaded.name == part.name();
+    });
+}
+
+float number(const Part& part, const char* name) {
+    return static_cast<float>(part.values().real(name));
+}
+
+glm::vec4 withW(const glm::vec3& v, float w = 0) {
+    return {v, w};
+}
+
+glm::uvec2 halves(std::uint64_t value) {
+    return {static_cast<std::uint32_t>(value), static_cast<std::uint32_t>(value >> 32)};
+}
+
+void setLook(StepValues& values, const PartList& parts, const particles::Step& step) {
+    const Part& size = *parts.size();
+    if (size.name() == "linear")
+        values.radius.x = number(size, "start_metres"),
+        values.radius.y = number(size, "end_metres") - number(size, "start_metres");
+    else
+        values.radius.x = number(size, "radius_metres");
+    values.radius.z = static_cast<float>(step.seconds);
+
+    const Part& colour = *parts.colour();
+    const float start = number(colour, "opacity_start"), end = number(colour, "opacity_end");
+    values.life.z = colour.values().choice("opacity_curve") == "bezier" ? 1.0f : 0.0f;
+    if (values.life.z == 1.0f) {
+        const auto curve =
+            maths::bezierPolynomial(start, number(colour, "opacity_early"), number(colour, "opacity_late"), end);
+        values.opacity = {curve.c0, curve.c1, curve.c2, curve.c3};
+    } else {
+        values.opacity = {start, end - start, 0, 0};
+    }
+    if (colour.name() != "bands") return;
+    const auto own = [&](const char* name) {
+        return glm::vec3(particles::vectorOf(colour.values(), name, particles::colourAxes));
+    };
+    values.colours[0] = withW(own("first"), number(colour, "share"));
+    values.colours[1] = withW(own("second"));
+    values.numbers.z = static_cast<std::uint32_t>(colour.values().integer("births"));
+}
+
+void setCone(StepValues& values, const Part& velocity) {
+    const glm::vec3 axis = particles::directionOf(velocity.values(), "direction");
+    const maths::Tangents frame = maths::tangentsOf(axis);
+    const float turns = static_cast<float>(velocity.values().real("half_angle_degrees") / 360);
+    const float half = maths::sineOfTurns(turns / 2);
+    const bool printed = velocity.values().choice("mode", particles::samplingModes) == maths::SamplingMode::paper;
+    values.cone = {2.0f * half * half, turns, printed ? 1.0f : 0.0f, number(velocity, "inherit")};
+    values.coneFrame[0] = withW(frame.first);
+    values.coneFrame[1] = withW(frame.second);
+    values.coneFrame[2] = withW(axis);
+    values.source.y = number(velocity, "speed");
+    values.source.z = number(velocity, "speed_share");
+    values.source.w = number(velocity, "variation");
+}
+
+void setEmitters(StepValues& values, const Part& position, std::span<const particles::Emitter> emitters) {
+    if (emitters.size() > maximumEmitters) throw std::logic_error("dust on the GPU: too many emitters");
+    values.numbers.y = static_cast<std::uint32_t>(emitters.size());
+    const bool isDisc = position.name() == "disc";
+    values.source.x = isDisc ? number(position, "radius_metres") : -1.0f;
+    maths::Tangents axes{{1, 0, 0}, {0, 0, 1}};  // of a horizontal disc
+    if (isDisc)
+        if (const glm::vec3 normal = particles::directionOf(position.values(), "normal"); normal != glm::vec3(0, 1, 0))
+            axes = maths::tangentsOf(normal);
+    for (std::size_t e = 0; e < emitters.size(); ++e) {
+        const particles::Emitter& emitter = emitters[e];
+        values.from[e] = withW(emitter.from);
+        values.to[e] = withW(emitter.to);
+        values.velocityFrom[e] = withW(emitter.velocityFrom);
+        values.velocityTo[e] = withW(emitter.velocityTo);
+        values.forward[e] = withW(emitter.forward, emitter.speed);
+        values.up[e] = withW(emitter.up);
+        values.right[e] = withW(emitter.right);
+        values.discFirst[e] = withW(emitter.toWorld(axes.first));
+        values.discSecond[e] = withW(emitter.toWorld(axes.second));
+    }
+}
+
+void setWind(glm::vec4* values, const Part& part, const particles::Step& step) {
+    const glm::dvec3 wind = part.values().real("factor") * glm::dvec3(step.scene.wind);
+    const maths::GustField gusts = maths::gustField(part.values().real("gust_speed"), part.values().real("gust_metres"),
+                                                    part.values().real("gust_seconds"), wind, step.state.timeSeconds,
+                                                    step.seed, particles::windStream);
+    values[0] = {1, wind.x, wind.y, wind.z};
+    for (int j = 0; j < 4; ++j) {
+        const auto k = static_cast<std::size_t>(j);
+        values[1][j] = gusts.turnsPerMetre[k];
+        values[2][j] = gusts.phaseTurns[k];
+        values[3][j] = gusts.amplitude[k];
+    }
+}
+
+/// `values[0].x` is the kind of force, as in parts.glsl.
+void setForce(glm::vec4* values, const Part& part, const particles::Step& step) {
+    if (part.name() == "wind") return setWind(values, part, step);
+    if (part.name() == "gravity") values[0] = {2, number(part, "acceleration"), 0, 0};
+    if (part.name() == "constant") {
+        const glm::dvec3 force = particles::vectorOf(part.values(), "force", particles::spaceAxes);
+        const double mass = part.values().real("mass_kilograms");
+        const bool printed = part.values().choice("mode", particles::samplingModes) == maths::SamplingMode::paper;
+        const glm::vec3 acceleration = printed ? force * mass : force / mass;
+        values[0] = {3, acceleration.x, acceleration.y, acceleration.z};
+    }
+    if (part.name() == "drag") values[0] = {4, std::min(part.values().real("rate_per_second"), 1 / step.seconds), 0, 0};
+    if (part.name() == "ground")
+        values[0] = {5, number(part, "lift"), 1 / (1 + part.values().real("friction_per_second") * step.seconds), 0};
+}
+
+}  // namespace
+
+std::string partWithoutShader(const PartList& parts) {
+    for (const Part* part : parts.all())
+        if (!hasShader(*part))
+            return "the part " + std::string(particles::kindName(part->kind())) + " '" + part->name() + "'";
+    const ParameterValues& life = parts.lifetime().values();
+    if (life.real("per_speed") != 0 || particles::vectorOf(life, "per_metre", particles::spaceAxes) != glm::dvec3(0))
+        return "a lifetime by speed or place";
+    if (parts.forces().size() > maximumForces) return "a list of more than 16 forces";
+    return {};
+}
+
+bool ownColours(const PartList& parts) {
+    return parts.colour()->name() == "bands";
+}
+
+double longestLifeSeconds(const PartList& parts) {
+    const Part& life = parts.lifetime();
+    return life.values().real("average_seconds") + life.values().real("variation_seconds");
+}
+
+StepValues stepValues(const PartList& parts, const particles::Step& step, const particles::Births& births,
+                      std::span<const particles::Emitter> emitters, std::uint64_t firstSerial) {
+    StepValues values;
+    values.key = {halves(step.seed), halves(firstSerial)};
+    values.numbers.x = static_cast<std::uint32_t>(births.count);
+    values.numbers.w = static_cast<std::uint32_t>(parts.forces().size());
+    values.births = {births.firstSeconds, births.spacingSeconds};
+    values.seconds = {step.seconds, 0};
+    values.life.x = number(parts.lifetime(), "average_seconds");
+    values.life.y = number(parts.lifetime(), "variation_seconds");
+    setLook(values, parts, step);
+    setCone(values, *parts.velocity());
+    setEmitters(values, *parts.position(), emitters);
+    const scene::Terrain& terrain = step.scene.terrain;
+    if (!terrain.isFlat()) {
+        values.ground = {terrain.origin().x, terrain.origin().y, terrain.spacingMetres(), 0};
+        values.samples = {terrain.columns(), terrain.rows(), 0, 0};
+    }
+    for (std::size_t force = 0; force < parts.forces().size(); ++force)
+        setForce(values.forces + 4 * force, *parts.forces()[force], step);
+    return values;
+}
+
+}  // namespace dustbench::bench
