@@ -15,7 +15,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/toml_reader.h"
 
-namespace dustbench::bench {
+namespace dustbench::claims {
 namespace {
 
 constexpr Choices<Chance> chances{
@@ -132,8 +132,8 @@ std::vector<Claim> readClaims(files::TomlReader file) {
 }  // namespace
 
 void requireColumn(const std::string& where, const std::string& name) {
-    std::vector<std::string> known = columnsBeforeParameters();
-    std::ranges::copy(columnsAfterParameters(), std::back_inserter(known));
+    std::vector<std::string> known = results::columnsBeforeParameters();
+    std::ranges::copy(results::columnsAfterParameters(), std::back_inserter(known));
     if (!name.starts_with("p.") && std::ranges::find(known, name) == known.end())
         throw InputError(where + unknownName("column of summary.csv", name, known).what());
 }
@@ -191,24 +191,24 @@ std::string Rule::inWords() const {
     const std::string what = per.empty() ? column : column + " per " + nameOf(per);
     switch (quantity) {
         case Quantity::ratio:
-            return fmt::format("{} of {} over that of {}", what, bench::textOf(of), bench::textOf(with));
+            return fmt::format("{} of {} over that of {}", what, claims::textOf(of), claims::textOf(with));
         case Quantity::matched:
-            return fmt::format("{} of {} over that of {} with the same {}", what, bench::textOf(of),
-                               bench::textOf(with), match);
+            return fmt::format("{} of {} over that of {} with the same {}", what, claims::textOf(of),
+                               claims::textOf(with), match);
         case Quantity::share:
-            return fmt::format("({}) over {} of {}", fmt::join(parts, " + "), what, bench::textOf(of));
+            return fmt::format("({}) over {} of {}", fmt::join(parts, " + "), what, claims::textOf(of));
         case Quantity::growth:
-            return fmt::format("{} of {} at the maximum of {} over that at the minimum", what, bench::textOf(of),
+            return fmt::format("{} of {} at the maximum of {} over that at the minimum", what, claims::textOf(of),
                                nameOf(against));
         case Quantity::trend:
-            return fmt::format("rank correlation of {} with {}, {}", what, nameOf(against), bench::textOf(of));
+            return fmt::format("rank correlation of {} with {}, {}", what, nameOf(against), claims::textOf(of));
         case Quantity::slopes:
             return fmt::format("slope of {} over {} in the upper half of the loads, over that in the lower half, {}",
-                               what, nameOf(against), bench::textOf(of));
+                               what, nameOf(against), claims::textOf(of));
         case Quantity::exponent:
-            return fmt::format("k of {} = a + b {}^k, {}", what, nameOf(against), bench::textOf(of));
+            return fmt::format("k of {} = a + b {}^k, {}", what, nameOf(against), claims::textOf(of));
         case Quantity::value:
-            return fmt::format("{} of {}", what, bench::textOf(of));
+            return fmt::format("{} of {}", what, claims::textOf(of));
         case Quantity::finding:
             return fmt::format("{} of the experiment {}", column, experiment);
         case Quantity::none:
@@ -218,7 +218,7 @@ std::string Rule::inWords() const {
 }
 
 std::vector<Claim> loadClaims(const std::string& paper) {
-    const std::filesystem::path file = paperFile(paper, "claims.toml");
+    const std::filesystem::path file = suite::paperFile(paper, "claims.toml");
     if (file.empty()) return {};
     return readClaims(files::TomlReader::parseFile(file));
 }
@@ -227,4 +227,4 @@ std::vector<Claim> parseClaims(std::string_view text, const std::string& name) {
     return readClaims(files::TomlReader::parseText(text, name));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::claims

@@ -14,7 +14,7 @@
 
 #include "methods/contract/choices.h"
 
-namespace dustbench::bench {
+namespace dustbench::claims {
 
 enum class Quantity {
     none,      ///< not testable; `missing` gives the reason
@@ -113,4 +113,4 @@ struct Claim {
 [[nodiscard]] std::vector<Claim> loadClaims(const std::string& paper);
 [[nodiscard]] std::vector<Claim> parseClaims(std::string_view text, const std::string& name);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::claims

@@ -15,7 +15,7 @@
 
 #include "bench/claims/claim_verdict.h"
 
-namespace dustbench::bench {
+namespace dustbench::claims {
 namespace {
 
 using files::numberOf;
@@ -191,4 +191,4 @@ std::string conditionOf(const std::vector<ClaimCell>& cells, const std::string& 
     return listed(cells);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::claims

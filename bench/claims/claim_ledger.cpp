@@ -18,7 +18,7 @@
 #include "methods/kit/files/csv.h"
 #include "methods/kit/files/limits.h"
 
-namespace dustbench::bench {
+namespace dustbench::claims {
 
 ClaimVerdict verdictOf(ControlOutcome outcome) {
     return outcome == ControlOutcome::refuted ? ClaimVerdict::refuted : ClaimVerdict::confirmed;
@@ -153,9 +153,9 @@ std::set<std::string> runIdsOf(const std::string& suiteId, const files::CsvTable
         repetitions = std::max(repetitions, repetitionIn(summary, row));
     std::set<std::string> ids;
     for (const bool quick : {false, true})
-        for (const PlannedRun& cell : loadSuite(suiteId, quick).cells)
+        for (const suite::PlannedRun& cell : suite::loadSuite(suiteId, quick).cells)
             for (int repetition = 1; repetition <= repetitions; ++repetition)
-                ids.insert(runId(inRepetition(cell.spec, repetition)));
+                ids.insert(results::runId(suite::inRepetition(cell.spec, repetition)));
     return ids;
 }
 
@@ -196,8 +196,8 @@ std::string claimsCsv(const std::vector<EvaluatedClaim>& claims) {
     return text;
 }
 
-TextRows tabulate(const std::vector<EvaluatedClaim>& claims) {
-    TextRows table{{"claim", "verdict", "control", "measured", "interval", "expected", "the paper's claim"}, {}};
+suite::TextRows tabulate(const std::vector<EvaluatedClaim>& claims) {
+    suite::TextRows table{{"claim", "verdict", "control", "measured", "interval", "expected", "the paper's claim"}, {}};
     for (const EvaluatedClaim& evaluated : claims) {
         const auto& [paper, claim, result] = evaluated;
         std::string text = claim.text;
@@ -212,8 +212,8 @@ TextRows tabulate(const std::vector<EvaluatedClaim>& claims) {
     return table;
 }
 
-TextRows tabulatePrinted(const files::CsvTable& published, const files::CsvTable& summary) {
-    TextRows table{{"what", "paper", "formula", "measured", "measured/formula"}, {}};
+suite::TextRows tabulatePrinted(const files::CsvTable& published, const files::CsvTable& summary) {
+    suite::TextRows table{{"what", "paper", "formula", "measured", "measured/formula"}, {}};
     for (std::size_t line = 0; line < published.rows(); ++line) {
         const std::string where = published.where(line);
         const std::string& columns = published.cell(line, "columns");
@@ -230,7 +230,7 @@ TextRows tabulatePrinted(const files::CsvTable& published, const files::CsvTable
         const std::string& formula = published.cell(line, "formula");
         std::string measured, ratio;
         if (!sums.empty()) {
-            const double found = median(sums);
+            const double found = measure::median(sums);
             measured = found == std::floor(found) ? files::csvNumber(found) : fmt::format("{:.4g}", found);
             if (!formula.empty()) ratio = fmt::format("{:.3f}", found / published.number(line, "formula"));
         }
@@ -240,10 +240,10 @@ TextRows tabulatePrinted(const files::CsvTable& published, const files::CsvTable
     return table;
 }
 
-TextRows tabulatePrinted(const std::string& paper, const files::CsvTable& summary) {
-    const std::filesystem::path file = paperFile(paper, "numbers.csv");
+suite::TextRows tabulatePrinted(const std::string& paper, const files::CsvTable& summary) {
+    const std::filesystem::path file = suite::paperFile(paper, "numbers.csv");
     if (file.empty()) return {};
     return tabulatePrinted(files::CsvTable::parseFile(file), summary);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::claims

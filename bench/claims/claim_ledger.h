@@ -14,7 +14,7 @@
 #include "bench/suite/suite_table.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::claims {
 
 /// Evaluates a rule with the available data.
 using RuleEvaluator = std::function<ClaimResult(const Rule&)>;
@@ -50,7 +50,7 @@ void tellByMachine(EvaluatedClaim& evaluated, const std::vector<ClaimVerdict>& o
 [[nodiscard]] std::string claimsCsv(const std::vector<EvaluatedClaim>& claims);
 
 /// A row for each claim: id, verdict, control, measured value with its interval, expected range, the claim and notes.
-[[nodiscard]] TextRows tabulate(const std::vector<EvaluatedClaim>& claims);
+[[nodiscard]] suite::TextRows tabulate(const std::vector<EvaluatedClaim>& claims);
 
 /// Compares the numbers printed in a paper, `data/papers/<id>/numbers.csv`, with ours. Its columns: `what`, a
 /// description; `suite`, whose runs are used (empty: all), and `of`, a selection of them; `columns` of summary.csv,
@@ -58,8 +58,8 @@ void tellByMachine(EvaluatedClaim& evaluated, const std::vector<ClaimVerdict>& o
 /// formula, or empty. A row for each of the paper's numbers: what, published, formula, measured (the median over the
 /// runs; empty if there are none) and measured/formula. No rows if the paper has no such file. Throws InputError with
 /// file and line.
-[[nodiscard]] TextRows tabulatePrinted(const std::string& paper, const files::CsvTable& summary);
+[[nodiscard]] suite::TextRows tabulatePrinted(const std::string& paper, const files::CsvTable& summary);
 /// The same for a table that was already read.
-[[nodiscard]] TextRows tabulatePrinted(const files::CsvTable& published, const files::CsvTable& summary);
+[[nodiscard]] suite::TextRows tabulatePrinted(const files::CsvTable& published, const files::CsvTable& summary);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::claims

@@ -11,7 +11,7 @@
 #include "bench/claims/claim_ledger.h"
 #include "methods/kit/maths/philox.h"
 
-namespace dustbench::bench {
+namespace dustbench::claims {
 namespace {
 
 constexpr int rulesRepetitions = 6;
@@ -519,4 +519,4 @@ TEST(ClaimRules, WhatIsMissingIsNamed) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::claims

@@ -16,7 +16,7 @@
 
 #include "bench/measure/cost_fit.h"
 
-namespace dustbench::bench {
+namespace dustbench::claims {
 namespace {
 
 constexpr std::array<std::string_view, 9> cellColumns{"method", "scene", "drive",   "seed",  "width",
@@ -215,7 +215,7 @@ void addValues(const Rule& rule, const ResultRows& rows, SampleTable& table, Cla
 }
 
 /// Points of the curves, one curve for each cell and turn.
-using Curves = std::map<std::pair<Cell, std::int64_t>, std::vector<CostPoint>>;
+using Curves = std::map<std::pair<Cell, std::int64_t>, std::vector<measure::CostPoint>>;
 
 Curves curvesOf(const Rule& rule, const ResultRows& rows, const SampleTable& table, ClaimSamples& samples) {
     Curves curves;
@@ -226,11 +226,11 @@ Curves curvesOf(const Rule& rule, const ResultRows& rows, const SampleTable& tab
 }
 
 /// (y₂ − y₁)/(x₂ − x₁) over (y₁ − y₀)/(x₁ − x₀), with x₁ the load nearest to the middle of the range.
-std::optional<double> ratioOfSlopes(const std::vector<CostPoint>& points) {
-    const auto [first, last] = std::ranges::minmax_element(points, {}, &CostPoint::load);
+std::optional<double> ratioOfSlopes(const std::vector<measure::CostPoint>& points) {
+    const auto [first, last] = std::ranges::minmax_element(points, {}, &measure::CostPoint::load);
     const double half = (first->load + last->load) / 2;
-    const auto middle =
-        std::ranges::min_element(points, {}, [&](const CostPoint& point) { return std::abs(point.load - half); });
+    const auto middle = std::ranges::min_element(
+        points, {}, [&](const measure::CostPoint& point) { return std::abs(point.load - half); });
     if (middle == first || middle == last || middle->ms == first->ms) return std::nullopt;
     return (last->ms - middle->ms) / (last->load - middle->load) /
            ((middle->ms - first->ms) / (middle->load - first->load));
@@ -239,10 +239,10 @@ std::optional<double> ratioOfSlopes(const std::vector<CostPoint>& points) {
 /// The value at the maximum load over that at the minimum, Kendall's rank correlation, or the ratio of slopes.
 void addCurves(const Rule& rule, const ResultRows& rows, SampleTable& table, ClaimSamples& samples) {
     for (auto& [where, points] : curvesOf(rule, rows, table, samples)) {
-        const auto [first, last] = std::ranges::minmax_element(points, {}, &CostPoint::load);
+        const auto [first, last] = std::ranges::minmax_element(points, {}, &measure::CostPoint::load);
         if (first->load == last->load) continue;
         if (rule.quantity == Quantity::trend)
-            table.add(where.first, where.second, rankCorrelation(points));
+            table.add(where.first, where.second, measure::rankCorrelation(points));
         else if (rule.quantity == Quantity::slopes) {
             if (const auto ratio = ratioOfSlopes(points)) table.add(where.first, where.second, *ratio);
         } else if (first->ms == 0 && last->ms == 0)
@@ -382,7 +382,7 @@ ClaimSamples samplesOf(const Rule& rule, const ResultRows& rows) {
 
 CostCurves costCurvesOf(const Rule& rule, const ResultRows& rows) {
     CostCurves result;
-    std::map<Cell, std::vector<CostPoint>> curves;
+    std::map<Cell, std::vector<measure::CostPoint>> curves;
     for (const std::size_t row : rowsWith(rule, rule.of, rows, result))
         if (const auto load = rows.number(row, rule.against))
             curves[rows.cellOf(row, columnsWithin(rule))].push_back({*load, *valueOf(rule, rows, row)});
@@ -392,4 +392,4 @@ CostCurves costCurvesOf(const Rule& rule, const ResultRows& rows) {
     return result;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::claims

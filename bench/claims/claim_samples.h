@@ -17,7 +17,7 @@
 #include "bench/measure/cost_fit.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::claims {
 
 /// A configuration: the values of the columns that distinguish rows, in the order of the table. Of a pair of rows, also
 /// those of the second row.
@@ -86,7 +86,7 @@ struct ClaimSamples {
 /// The points that an exponent is fitted to.
 struct CostCurve {
     Selection cell;
-    std::vector<CostPoint> points;
+    std::vector<measure::CostPoint> points;
 };
 struct CostCurves {
     std::vector<CostCurve> curves;
@@ -95,4 +95,4 @@ struct CostCurves {
 };
 [[nodiscard]] CostCurves costCurvesOf(const Rule& rule, const ResultRows& rows);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::claims

@@ -14,7 +14,7 @@
 #include "bench/measure/statistics.h"
 #include "methods/contract/choices.h"
 
-namespace dustbench::bench {
+namespace dustbench::claims {
 namespace {
 
 ClaimVerdict verdictOf(const Rule& rule, double low, double high) {
@@ -29,7 +29,7 @@ struct MeanAndError {
     std::size_t count = 0;
 
     [[nodiscard]] double half(double level) const {
-        return studentQuantile((1 + level) / 2, static_cast<double>(count) - 1) * standardError;
+        return measure::studentQuantile((1 + level) / 2, static_cast<double>(count) - 1) * standardError;
     }
 };
 
@@ -73,7 +73,7 @@ const char* turnName(const Rule& rule) {
 
 /// The level of each cell's interval such that all intervals together hold with `intervalConfidence` (Bonferroni).
 double familyLevel(std::size_t cellCount) {
-    return 1 - (1 - intervalConfidence) / static_cast<double>(cellCount);
+    return 1 - (1 - measure::intervalConfidence) / static_cast<double>(cellCount);
 }
 
 ClaimCell evaluateCell(const Rule& rule, const std::vector<double>& values, const Scale& scale, std::size_t cellCount) {
@@ -87,8 +87,8 @@ ClaimCell evaluateCell(const Rule& rule, const std::vector<double>& values, cons
     }
     if (values.size() < 2) return cell;
     const auto end = [&](double level, int side) { return scale.from(found.mean + side * found.half(level)); };
-    cell.low = end(intervalConfidence, -1);
-    cell.high = end(intervalConfidence, 1);
+    cell.low = end(measure::intervalConfidence, -1);
+    cell.high = end(measure::intervalConfidence, 1);
     if (values.size() < minimumTurns(rule)) return cell;
     const double level = familyLevel(cellCount);
     cell.verdict = verdictOf(rule, cell.low, cell.high);
@@ -103,13 +103,13 @@ ClaimCell evaluateRatioNearZero(const Rule& rule, const std::vector<ClaimSample>
     std::vector<std::pair<double, double>> pairs;
     pairs.reserve(samples.size());
     for (const ClaimSample& sample : samples) pairs.emplace_back(sample.numerator, sample.denominator);
-    const RatioOfMeans found = ratioOfMeans(pairs, intervalConfidence);
+    const measure::RatioOfMeans found = measure::ratioOfMeans(pairs, measure::intervalConfidence);
     cell.measured = found.ratio;
     if (rule.over == Chance::none) return cell;
     cell.low = found.low;
     cell.high = found.high;
     if (samples.size() < minimumTurns(rule)) return cell;
-    const RatioOfMeans ofAll = ratioOfMeans(pairs, familyLevel(cellCount));
+    const measure::RatioOfMeans ofAll = measure::ratioOfMeans(pairs, familyLevel(cellCount));
     cell.verdict = verdictOf(rule, found.low, found.high);
     cell.ofAll = verdictOf(rule, ofAll.low, ofAll.high);
     return cell;
@@ -127,8 +127,8 @@ void measureAll(const Rule& rule, const ClaimSamples& samples, const Scale& scal
     const MeanAndError found = meanAndError(means);
     result.measured = scale.from(found.mean);
     if (rule.over == Chance::none || means.size() < 2) return;
-    result.low = scale.from(found.mean - found.half(intervalConfidence));
-    result.high = scale.from(found.mean + found.half(intervalConfidence));
+    result.low = scale.from(found.mean - found.half(measure::intervalConfidence));
+    result.high = scale.from(found.mean + found.half(measure::intervalConfidence));
 }
 
 std::size_t countOf(const std::vector<ClaimCell>& cells, ClaimVerdict verdict) {
@@ -214,7 +214,7 @@ void evaluateCurves(const Rule& rule, const CostCurves& curves, ClaimResult& res
     for (const CostCurve& curve : curves.curves) {
         ClaimCell& cell = result.cells.emplace_back();
         cell.cell = curve.cell;
-        const CostFit fit = fitCost(curve.points);
+        const measure::CostFit fit = measure::fitCost(curve.points);
         if (!std::isfinite(fit.exponent.plusMinus)) {
             if (result.note.empty()) result.note = fit.reason.empty() ? "the fit has no interval" : fit.reason;
             continue;
@@ -242,9 +242,9 @@ ClaimCell evaluateOneFinding(const Rule& rule, const StoredFinding& finding, std
     cell.verdict = cell.ofAll = verdictOf(rule, finding.low, finding.high);
     if (cellCount == 1 || finding.samples < 2) return cell;
     const auto quantile = [&](double level) {
-        return studentQuantile((1 + level) / 2, static_cast<double>(finding.samples) - 1);
+        return measure::studentQuantile((1 + level) / 2, static_cast<double>(finding.samples) - 1);
     };
-    const double wider = quantile(familyLevel(cellCount)) / quantile(intervalConfidence);
+    const double wider = quantile(familyLevel(cellCount)) / quantile(measure::intervalConfidence);
     cell.ofAll = verdictOf(rule, finding.value - wider * (finding.value - finding.low),
                            finding.value + wider * (finding.high - finding.value));
     return cell;
@@ -323,4 +323,4 @@ ClaimResult evaluateFinding(const Rule& rule, const std::vector<StoredFinding>& 
     return result;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::claims

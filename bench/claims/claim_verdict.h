@@ -32,7 +32,7 @@
 #include "bench/claims/claim_samples.h"
 #include "bench/claims/experiments.h"
 
-namespace dustbench::bench {
+namespace dustbench::claims {
 
 inline constexpr std::size_t minimumRepetitions = 6;
 inline constexpr std::size_t minimumSeeds = 5;
@@ -92,4 +92,4 @@ struct ClaimResult {
 /// of the column. Empty if a cell has no number in it.
 [[nodiscard]] std::string intervalAlong(const std::vector<ClaimCell>& cells, const std::string& column);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::claims

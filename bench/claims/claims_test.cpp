@@ -17,7 +17,7 @@
 #include "methods/contract/errors.h"
 #include "source_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::claims {
 namespace {
 
 constexpr int repetitions = 6;
@@ -60,8 +60,8 @@ TEST(Claims, MistakesNameTheirLine) {
 }
 
 TEST(Claims, ThoseOfEveryPaperCanBeReadAndTheirSuitesAreThePapers) {
-    for (const std::string& id : listPapers()) {
-        const Paper paper = loadPaper(id);
+    for (const std::string& id : suite::listPapers()) {
+        const suite::Paper paper = suite::loadPaper(id);
         for (const Claim& claim : loadClaims(id))
             EXPECT_TRUE(claim.rule.suite.empty() || std::ranges::count(paper.suites, claim.rule.suite) == 1)
                 << claim.id;
@@ -74,7 +74,7 @@ TEST(Claims, ThoseOfEveryPaperCanBeReadAndTheirSuitesAreThePapers) {
 }
 
 TEST(Claims, EachHasAControlAndAReasonForItsRange) {
-    for (const std::string& id : listPapers())
+    for (const std::string& id : suite::listPapers())
         for (const Claim& claim : loadClaims(id)) {
             if (claim.rule.quantity == Quantity::none) continue;
             EXPECT_FALSE(claim.controls.empty()) << id << " " << claim.id << " has no [[claim.control]]";
@@ -86,7 +86,7 @@ TEST(Claims, EachHasAControlAndAReasonForItsRange) {
 
 TEST(Claims, AllThatThePapersClaimStandInTheLedger) {
     std::set<int> numbers;
-    for (const std::string& id : listPapers())
+    for (const std::string& id : suite::listPapers())
         for (const Claim& claim : loadClaims(id)) {
             if (claim.id[0] == 'R') numbers.insert(std::atoi(claim.id.c_str() + 1));
         }
@@ -103,7 +103,7 @@ std::set<std::string> entriesIn(const std::string& text) {
 }
 
 TEST(Claims, StandBesideTheSentencesOfTheirPaper) {
-    std::ifstream file(paperFile("carr2006", "README.md"));
+    std::ifstream file(suite::paperFile("carr2006", "README.md"));
     const std::set<std::string> named = entriesIn({std::istreambuf_iterator<char>(file), {}});
     std::set<std::string> ids, numbers;
     for (const Claim& claim : loadClaims("carr2006")) {
@@ -120,8 +120,8 @@ TEST(Claims, StandBesideTheSentencesOfTheirPaper) {
 }
 
 TEST(Claims, SuitesOfControlsAreThePapers) {
-    for (const std::string& id : listPapers()) {
-        const Paper paper = loadPaper(id);
+    for (const std::string& id : suite::listPapers()) {
+        const suite::Paper paper = suite::loadPaper(id);
         for (const Claim& claim : loadClaims(id))
             for (const ControlRule& control : claim.controls)
                 EXPECT_TRUE(control.rule.suite.empty() || std::ranges::count(paper.suites, control.rule.suite) == 1 ||
@@ -132,18 +132,18 @@ TEST(Claims, SuitesOfControlsAreThePapers) {
 
 TEST(Claims, ReadTheRunsOfTheirSuiteAndNoOthers) {
     // Both octrees of the suite's quick run, with their real names; the recursive one takes half the time.
-    const Suite suite = loadSuite("carr2006-depth", true);
+    const suite::Suite suite = suite::loadSuite("carr2006-depth", true);
     std::string text = "run_id,status,method,repetition,p.particles,p.mode,p.depth,build_ms_median\n";
     for (const bool isSuites : {true, false})
-        for (const PlannedRun& cell : suite.cells)
+        for (const suite::PlannedRun& cell : suite.cells)
             for (int repetition = 1; repetition <= repetitions; ++repetition) {
                 if (!cell.spec.parameters.contains("mode")) continue;
                 const double share = (cell.spec.method == "octree_recursive") == isSuites ? 1 : 2;
                 const double ms = share * std::stod(cell.spec.parameters.at("particles"));
-                text +=
-                    fmt::format("{}{},done,{},{},{},{},{},{}\n", runId(inRepetition(cell.spec, repetition)),
-                                isSuites ? "" : "x", cell.spec.method, repetition, cell.spec.parameters.at("particles"),
-                                cell.spec.parameters.at("mode"), cell.spec.parameters.at("depth"), ms);
+                text += fmt::format("{}{},done,{},{},{},{},{},{}\n",
+                                    results::runId(suite::inRepetition(cell.spec, repetition)), isSuites ? "" : "x",
+                                    cell.spec.method, repetition, cell.spec.parameters.at("particles"),
+                                    cell.spec.parameters.at("mode"), cell.spec.parameters.at("depth"), ms);
             }
     for (const EvaluatedClaim& evaluated : evaluateClaims("carr2006", files::CsvTable::parseText(text, "summary.csv")))
         if (evaluated.claim.id == "R2a") {
@@ -227,7 +227,7 @@ TEST(PublishedNumbers, StandBesideTheSumOfOurColumns) {
         "run_id,status,method,scene,repetition,p.particles,cpu_bytes,gpu_bytes,fps_avg\n"
         "a,done,haze,plain,1,100,30,12,83.06441630751632\nb,failed,haze,plain,1,200,7,7,\n",
         "summary.csv");
-    const TextRows table =
+    const suite::TextRows table =
         tabulatePrinted(files::CsvTable::parseText(head + "small,,haze particles=100,cpu_bytes gpu_bytes,about 40,40\n"
                                                           "failed,,haze particles=200,cpu_bytes,7,7\n"
                                                           "rate,,haze particles=100,fps_avg,++,\n",
@@ -303,5 +303,4 @@ TEST(ClaimFindings, OfSeveralShapesAreCells) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::claims

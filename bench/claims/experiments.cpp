@@ -8,7 +8,7 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::claims {
 namespace {
 
 /// An empty field is a number that was not measured.
@@ -26,11 +26,11 @@ class LentWorld final : public ExperimentWorld {
     [[nodiscard]] Frame step() override {
         world_.step();
         view_ = world_.view(width_, height_);
-        return {index_++, stepSeconds, world_.state(), world_.dust(), view_, untimed_};
+        return {index_++, world::stepSeconds, world_.state(), world_.dust(), view_, untimed_};
     }
 
  private:
-    World world_;
+    world::World world_;
     int width_, height_;
     std::int64_t index_ = 0;
     scene::View view_;
@@ -86,9 +86,9 @@ gpu::Device& ProgramContext::device() {
 std::unique_ptr<ExperimentWorld> ProgramContext::world(const std::string& scene,
                                                        const std::map<std::string, std::string>& parameters, int width,
                                                        int height) {
-    ParameterValues values(worldParameters());
+    ParameterValues values(world::worldParameters());
     for (const auto& [name, text] : parameters) values.set(name, text);
     return std::make_unique<LentWorld>(scene, values, seed_, width, height);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::claims

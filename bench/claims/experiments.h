@@ -15,7 +15,7 @@
 #include "methods/contract/experiment.h"
 #include "methods/kit/gpu/device.h"
 
-namespace dustbench::bench {
+namespace dustbench::claims {
 
 struct StoredFinding : Finding {
     std::string experiment;
@@ -50,4 +50,4 @@ class ProgramContext final : public ExperimentContext {
     std::optional<gpu::Device> device_;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::claims

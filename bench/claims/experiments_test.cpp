@@ -8,7 +8,7 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::claims {
 namespace {
 
 TEST(Experiments, AreFoundInTheirFoldersWithWhatTheyAreFor) {
@@ -43,5 +43,4 @@ TEST(Findings, AreReadAsTheyWereWritten) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::claims

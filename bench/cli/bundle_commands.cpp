@@ -33,7 +33,7 @@ int writeBundle(const BundleOptions& options) {
         options.out.empty() ? fs::path(folder.filename().string() + ".tar") : fs::path(options.out);
     if (fs::exists(fs::symlink_status(archive)))
         throw InputError(fmt::format("bundle '{}' already exists; choose a new name", archive.string()));
-    const bench::PackedBundle packed = bench::packBundle(folder, archive);
+    const suite::PackedBundle packed = suite::packBundle(folder, archive);
     for (const std::string& missing : packed.missing) std::cerr << "note: " << files::printable(missing) << "\n";
     std::cerr << fmt::format("{} files, {:.1f} MB\n", packed.files, static_cast<double>(packed.bytes) / 1e6);
     std::cout << archive.string() << "\n";
@@ -47,39 +47,39 @@ struct VerifyOptions {
 };
 
 /// At most `most` of them, evenly spread; all if it is negative.
-std::vector<bench::ExactRun> chosen(std::vector<bench::ExactRun> all, std::int64_t most) {
+std::vector<suite::ExactRun> chosen(std::vector<suite::ExactRun> all, std::int64_t most) {
     const std::size_t count = most < 0 ? all.size() : std::min(all.size(), static_cast<std::size_t>(most));
-    std::vector<bench::ExactRun> some;
+    std::vector<suite::ExactRun> some;
     some.reserve(count);
     for (std::size_t i = 0; i < count; ++i) some.push_back(std::move(all[i * all.size() / count]));
     return some;
 }
 
 /// Why the run cannot be repeated here; empty if it can. Files with absolute paths are not taken from the bundle.
-std::string whyNotHere(const bench::ExactRun& exact, const bench::StoredRun& run) {
-    for (const bench::InputHash& input : run.inputs)
-        if (fs::path(input.file).is_absolute() && bench::sha256OfFile(input.file) != input.sha256)
+std::string whyNotHere(const suite::ExactRun& exact, const results::StoredRun& run) {
+    for (const measure::InputHash& input : run.inputs)
+        if (fs::path(input.file).is_absolute() && measure::sha256OfFile(input.file) != input.sha256)
             return fmt::format("'{}' is missing or has changed", input.file);
     try {
-        (void)bench::canonicalParameters(findMethod(exact.spec.method), exact.spec.parameters);
+        (void)results::canonicalParameters(findMethod(exact.spec.method), exact.spec.parameters);
     } catch (const InputError& error) {
         return error.what();
     }
     return "";
 }
 
-std::string nameOf(const bench::ExactRun& exact) {
+std::string nameOf(const suite::ExactRun& exact) {
     const std::size_t others = exact.runIds.size() - 1;
     return exact.runIds.front() + (others == 0 ? "" : fmt::format(" and {} more", others));
 }
 
 /// Prints a line for each repeated simulation; false unless all hashes are the same.
-bool printComparison(const std::vector<bench::ExactRun>& repeated, const bench::StoredRuns& again) {
+bool printComparison(const std::vector<suite::ExactRun>& repeated, const results::StoredRuns& again) {
     bool isSame = true;
-    for (const bench::ExactRun& exact : repeated) {
-        const bench::StoredRun& run = again.at(bench::runId(exact.spec));
-        const std::string difference = run.status == bench::RunStatus::done
-                                           ? bench::hashDifference(run, exact)
+    for (const suite::ExactRun& exact : repeated) {
+        const results::StoredRun& run = again.at(results::runId(exact.spec));
+        const std::string difference = run.status == results::RunStatus::done
+                                           ? suite::hashDifference(run, exact)
                                            : "the repetition failed: " + files::printable(run.reason);
         isSame = isSame && difference.empty();
         std::cout << fmt::format("{}: {}\n", nameOf(exact), difference.empty() ? "the same hashes" : difference);
@@ -88,16 +88,16 @@ bool printComparison(const std::vector<bench::ExactRun>& repeated, const bench::
 }
 
 /// Runs the simulations again with the bundle's data and compares their hashes.
-int repeatRuns(const bench::OpenedBundle& bundle, const std::vector<bench::ExactRun>& exact, double timeoutSeconds,
+int repeatRuns(const suite::OpenedBundle& bundle, const std::vector<suite::ExactRun>& exact, double timeoutSeconds,
                const fs::path& below) {
     if (const fs::path inputs = bundle.folder / "inputs"; fs::is_directory(inputs)) {
         std::vector<std::string> folders{inputs.string()};
         for (const fs::path& named : files::namedDataFolders()) folders.push_back(named.string());
         files::useDataFolders("bundle", folders);
     }
-    std::vector<bench::ExactRun> repeated;
-    std::vector<bench::PlannedRun> plan;
-    for (const bench::ExactRun& each : exact) {
+    std::vector<suite::ExactRun> repeated;
+    std::vector<suite::PlannedRun> plan;
+    for (const suite::ExactRun& each : exact) {
         const std::string whyNot = whyNotHere(each, bundle.runs.at(each.runIds.front()));
         if (!whyNot.empty()) {
             std::cout << fmt::format("{}: not repeated: {}\n", nameOf(each), files::printable(whyNot));
@@ -108,11 +108,11 @@ int repeatRuns(const bench::OpenedBundle& bundle, const std::vector<bench::Exact
     }
     if (plan.empty()) return exitOk;
     requireOpenGl();
-    bench::ResultsFolder again(below / "again");
-    bench::ExecutionOptions execution = childExecution();
+    results::ResultsFolder again(below / "again");
+    run::ExecutionOptions execution = childExecution();
     execution.timeoutSeconds = timeoutSeconds;
     ProgressPrinter printer;
-    if (bench::execute(plan, 1, again, execution, printer).aborted) {
+    if (run::execute(plan, 1, again, execution, printer).aborted) {
         std::cerr << "aborted" << std::endl;
         return exitAborted;
     }
@@ -120,9 +120,9 @@ int repeatRuns(const bench::OpenedBundle& bundle, const std::vector<bench::Exact
 }
 
 int verifyBundle(const VerifyOptions& options) {
-    const bench::TemporaryFolder temporary;
-    const bench::OpenedBundle bundle = bench::openBundle(options.bundle, temporary.path());
-    const std::vector<bench::ExactRun> exact = bench::exactRuns(bundle.runs);
+    const results::TemporaryFolder temporary;
+    const suite::OpenedBundle bundle = suite::openBundle(options.bundle, temporary.path());
+    const std::vector<suite::ExactRun> exact = suite::exactRuns(bundle.runs);
     std::cout << fmt::format("{} files are unchanged: {} runs of {} simulations\n", bundle.files, bundle.runs.size(),
                              exact.size());
     return repeatRuns(bundle, chosen(exact, options.runs), options.timeoutSeconds, temporary.path());

@@ -9,8 +9,8 @@
 
 namespace dustbench::cli {
 
-bench::RunError errorOfException() {
-    using Kind = bench::RunError::Kind;
+run::RunError errorOfException() {
+    using Kind = run::RunError::Kind;
     try {
         throw;
     } catch (const InputError& error) {
@@ -30,8 +30,8 @@ bench::RunError errorOfException() {
     }
 }
 
-ExitCode exitCodeOf(bench::RunError::Kind kind) {
-    using Kind = bench::RunError::Kind;
+ExitCode exitCodeOf(run::RunError::Kind kind) {
+    using Kind = run::RunError::Kind;
     switch (kind) {
         case Kind::input:
             return exitBadInput;

@@ -21,8 +21,8 @@ enum ExitCode {
 };
 
 /// What the exception being handled means.
-[[nodiscard]] bench::RunError errorOfException();
-[[nodiscard]] ExitCode exitCodeOf(bench::RunError::Kind kind);
+[[nodiscard]] run::RunError errorOfException();
+[[nodiscard]] ExitCode exitCodeOf(run::RunError::Kind kind);
 
 [[nodiscard]] Command listCommand();
 [[nodiscard]] Command envCommand();

@@ -29,8 +29,8 @@ class Data : public Dustbench {
     [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
     /// The scene `name` in a data folder, with a wind that no delivered scene has.
     void writeScene(const std::string& name) const { write(name, "description = \"of a test\"\nwind = [3, 0, 1]\n"); }
-    [[nodiscard]] bench::StoredRun onlyRun(const std::string& folder) const {
-        const bench::StoredRuns stored = bench::readStoredRuns(folder);
+    [[nodiscard]] results::StoredRun onlyRun(const std::string& folder) const {
+        const results::StoredRuns stored = results::readStoredRuns(folder);
         EXPECT_EQ(stored.size(), 1u);
         return stored.begin()->second;
     }
@@ -64,8 +64,8 @@ TEST_F(Data, OfAFolderReachTheProcessesOfRunsAndSuites) {
     const Called suite = call("--data " + at("mine") + " suite hilly --out " + at("suite"));
     ASSERT_EQ(suite.code, 0) << suite.err;
     for (const char* folder : {"run", "suite"}) {
-        const bench::StoredRun stored = onlyRun(at(folder));
-        const auto isScene = [](const bench::InputHash& input) { return input.file == "scenes/hills.toml"; };
+        const results::StoredRun stored = onlyRun(at(folder));
+        const auto isScene = [](const measure::InputHash& input) { return input.file == "scenes/hills.toml"; };
         EXPECT_TRUE(std::ranges::any_of(stored.inputs, isScene)) << folder;
     }
 }
@@ -126,7 +126,7 @@ TEST_F(Data, LieBesideTheProgramWhereverBothAreMoved) {
 }
 
 TEST_F(Data, OfTheTreeAreNotNamedByTheProgramItself) {
-    if (bench::buildFacts().buildType != "Release") GTEST_SKIP() << "debug symbols name the sources";
+    if (measure::buildFacts().buildType != "Release") GTEST_SKIP() << "debug symbols name the sources";
     const fs::path folder = fs::path(DUSTBENCH_PROGRAM).parent_path(), source = folder.parent_path().parent_path();
     for (const char* name : {"dustbench", "libdustbench_kit.so", "libdustbench_pictures.so"}) {
         if (!fs::exists(folder / name)) continue;  // a statically linked program has no kit next to it
@@ -174,9 +174,9 @@ TEST_F(Data, OfAMethodMayBeAFileThatTheRunKnowsByItsContent) {
         const std::string set = "run --method " + method + " -P " + parameter.name + "=";
         const Called called = call(set + at(name) + rest + at(method));
         ASSERT_EQ(called.code, 0) << called.err;
-        const bench::StoredRun run = onlyRun(at(method));
+        const results::StoredRun run = onlyRun(at(method));
         EXPECT_EQ(run.parameters.at(parameter.name), at(name));
-        const auto isFile = [&](const bench::InputHash& input) { return input.file == at(name); };
+        const auto isFile = [&](const measure::InputHash& input) { return input.file == at(name); };
         EXPECT_TRUE(std::ranges::any_of(run.inputs, isFile)) << method;
         const Called lost = call(set + at(parameter.name + "/owm" + parameter.fileExtension) + rest + at("lost"));
         EXPECT_EQ(lost.code, 3);
@@ -203,11 +203,11 @@ TEST_F(Data, ThatFilesNameLieBesideThemAndMakeResultsOutdatedWhenTheyChange) {
         const Called called = call("run --method " + method + " -P " + parameter +
                                    " --size 64x48 --warmup 0 --frames 1 -P preroll=0 --out " + at(method));
         ASSERT_EQ(called.code, 0) << called.err;
-        const bench::StoredRun run = onlyRun(at(method));
+        const results::StoredRun run = onlyRun(at(method));
         const std::string build = run.provenance.at("build_id");
-        EXPECT_EQ(bench::Freshness(build).whyOutdated(run), "") << method;
+        EXPECT_EQ(results::Freshness(build).whyOutdated(run), "") << method;
         write("own/box.obj", cube + "# changed\n");
-        EXPECT_THAT(bench::Freshness(build).whyOutdated(run), HasSubstr("box.obj has changed since")) << method;
+        EXPECT_THAT(results::Freshness(build).whyOutdated(run), HasSubstr("box.obj has changed since")) << method;
     }
 }
 
@@ -220,7 +220,7 @@ std::vector<gpu::Adapter> usableAdapters() {
 }
 
 std::map<std::string, std::string, std::less<>> provenanceOfOnlyRun(const std::string& folder) {
-    const bench::StoredRuns stored = bench::readStoredRuns(folder);
+    const results::StoredRuns stored = results::readStoredRuns(folder);
     EXPECT_EQ(stored.size(), 1u);
     return stored.begin()->second.provenance;
 }

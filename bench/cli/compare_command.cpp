@@ -24,7 +24,7 @@ namespace {
 struct CompareOptions {
     std::vector<std::string> methods;
     WorldOptions world;
-    std::int64_t frames = bench::RunSpec().frames, repetitions = 6;
+    std::int64_t frames = results::RunSpec().frames, repetitions = 6;
     std::string moments, out;
     std::string columns;
     std::string failPercent, markdown;
@@ -43,8 +43,8 @@ void refuseOthers(const CompareOptions& options, bool folders) {
                                          folders ? "results folders" : "methods"));
 }
 
-bench::ParameterTexts singleValues(const std::vector<std::string>& texts) {
-    bench::ParameterTexts values;
+results::ParameterTexts singleValues(const std::vector<std::string>& texts) {
+    results::ParameterTexts values;
     for (const auto& [name, list] : parseParameters(texts)) {
         if (list.size() != 1)
             throw InputError(
@@ -57,22 +57,22 @@ bench::ParameterTexts singleValues(const std::vector<std::string>& texts) {
 }
 
 /// Writes the contact sheet of all completed runs. The reference images come from the runs that have metrics.
-void writeSheet(const bench::Suite& suite, const bench::ResultsFolder& results) {
-    std::vector<bench::SheetRun> runs;
-    for (const bench::PlannedRun& cell : suite.cells) {
-        const std::string id = bench::runId(bench::inRepetition(cell.spec, 1));
-        if (bench::doneRun(cell, 1, results.runs()))
+void writeSheet(const suite::Suite& suite, const results::ResultsFolder& results) {
+    std::vector<report::SheetRun> runs;
+    for (const suite::PlannedRun& cell : suite.cells) {
+        const std::string id = results::runId(suite::inRepetition(cell.spec, 1));
+        if (suite::doneRun(cell, 1, results.runs()))
             runs.push_back({id, cell.spec.method + (cell.label.empty() ? "" : " " + cell.label),
                             std::filesystem::exists(results.runFolder(id) / "metrics.csv")});
     }
-    if (std::ranges::none_of(runs, &bench::SheetRun::evaluated)) {
+    if (std::ranges::none_of(runs, &report::SheetRun::evaluated)) {
         std::cout << "no contact sheet: no run could be compared with a reference image\n";
         return;
     }
-    const bench::ContactSheet sheet = bench::sideBySideSheet(results, runs, suite.title);
-    std::cout << bench::writeContactSheet(sheet, results.path()).string() << "\n";
+    const report::ContactSheet sheet = report::sideBySideSheet(results, runs, suite.title);
+    std::cout << report::writeContactSheet(sheet, results.path()).string() << "\n";
     try {
-        std::cout << bench::drawContactSheet(results.path()).string() << "\n";
+        std::cout << report::drawContactSheet(results.path()).string() << "\n";
     } catch (const InputError& error) {
         std::cout << "no contact_sheet.png: " << error.what() << "\n";
     }
@@ -112,18 +112,18 @@ int compareFolderArguments(const CompareOptions& options) {
 int compare(const CompareOptions& options) {
     if (std::ranges::any_of(options.methods, isFolder)) return compareFolderArguments(options);
     refuseOthers(options, false);
-    bench::RunSpec base = options.world.toWorldSpec();
+    results::RunSpec base = options.world.toWorldSpec();
     base.frames = options.frames;
     base.metricPlan.emplace();
-    if (!options.moments.empty()) base.metricPlan->moments = bench::parseFrameRange("--moments", options.moments);
-    bench::Suite suite = bench::sideBySideSuite(options.methods, singleValues(options.world.parameters), base,
+    if (!options.moments.empty()) base.metricPlan->moments = exports::parseFrameRange("--moments", options.moments);
+    suite::Suite suite = suite::sideBySideSuite(options.methods, singleValues(options.world.parameters), base,
                                                 static_cast<int>(options.repetitions));
     suite.title += fmt::format(": {}{}, {} frame{}", base.scene, base.drive.empty() ? "" : ", " + base.drive,
                                base.frames, base.frames == 1 ? "" : "s");
-    const auto plan = bench::planRuns(suite);
+    const auto plan = suite::planRuns(suite);
     checkWorlds(plan);
     requireOpenGl();
-    bench::ResultsFolder results(options.out.empty() ? "out/compare" : options.out);
+    results::ResultsFolder results(options.out.empty() ? "out/compare" : options.out);
     PlanOptions planOptions;
     planOptions.timeoutSeconds = suite.timeoutSeconds;
     const int code = runPlan(plan, suite.repetitions, results, planOptions);

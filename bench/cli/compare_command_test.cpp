@@ -25,7 +25,7 @@ class CompareCommand : public Dustbench {
         Dustbench::SetUp();
         if (std::ranges::none_of(methods(), [](const MethodInfo& info) { return info.id == "billboard"; }))
             GTEST_SKIP() << "no billboards here";
-        if (!bench::findBaseline()) GTEST_SKIP() << "no null method here";
+        if (!results::findBaseline()) GTEST_SKIP() << "no null method here";
     }
     [[nodiscard]] Called compare(const std::string& more) const {
         return call(fmt::format("compare --out '{}' {}", out(), more));
@@ -42,7 +42,7 @@ TEST_F(CompareCommand, WritesMetricsSummaryAndContactSheetAndGoesOnWhereItWas) {
     const auto summary = files::CsvTable::parseFile(fs::path(out()) / "summary.csv");
     ASSERT_EQ(summary.rows(), 6u);
     for (std::size_t row = 0; row < 6; ++row) {
-        const bool isNull = summary.cell(row, "method") == bench::baselineMethod;
+        const bool isNull = summary.cell(row, "method") == results::baselineMethod;
         EXPECT_EQ(summary.cell(row, "flip").empty(), isNull || summary.cell(row, "repetition") != "1");
         EXPECT_EQ(summary.cell(row, "method_ms_median").empty(), isNull);
     }
@@ -132,7 +132,7 @@ class CompareFolders : public Dustbench {
     void write(const std::string& name, double factor, const Change& change) const {
         for (const int particles : {100, 900})
             for (int repetition = 1; repetition <= 6; ++repetition) {
-                bench::RunRecord record;
+                results::RunRecord record;
                 record.spec.method = "haze";
                 record.spec.parameters["particles"] = std::to_string(particles);
                 record.spec.repetition = repetition;
@@ -144,13 +144,13 @@ class CompareFolders : public Dustbench {
                 record.summary = {{"repetition", std::int64_t{repetition}},
                                   {"frame_ms_median", particles * factor * (1 + 0.002 * repetition)}};
                 if (!record.validity.empty()) record.summary.emplace_back("invalid", record.validity.front());
-                const fs::path folder = folder_ / name / "runs" / bench::runId(record.spec);
+                const fs::path folder = folder_ / name / "runs" / results::runId(record.spec);
                 fs::create_directories(folder);
-                std::ofstream(folder / "run.json") << bench::toJson(record);
+                std::ofstream(folder / "run.json") << results::toJson(record);
             }
     }
     void write(const std::string& name, double factor) const {
-        write(name, factor, [](bench::RunRecord&) {});
+        write(name, factor, [](results::RunRecord&) {});
     }
     [[nodiscard]] Called compare(const std::string& b, const std::string& more = "--fail-on-regression 5") const {
         return call(fmt::format("compare '{0}/a/' '{0}/{1}/' {2}", folder_.string(), b, more));
@@ -161,10 +161,10 @@ TEST_F(CompareFolders, ExitCodesTellAllIsWellARegressionAndWhatCannotBeCompared)
     write("a", 1);
     write("same", 1.001);
     write("slower", 1.1);
-    write("elsewhere", 1, [](bench::RunRecord& record) { record.provenance.machine.cpu = "Cpu 2"; });
-    write("other", 1, [](bench::RunRecord& record) { record.stateHash = "fedcba9876543210"; });
-    write("debug", 1, [](bench::RunRecord& record) { record.provenance.build.buildType = "Debug"; });
-    write("shorter", 1, [](bench::RunRecord& record) { record.spec.frames = 9; });
+    write("elsewhere", 1, [](results::RunRecord& record) { record.provenance.machine.cpu = "Cpu 2"; });
+    write("other", 1, [](results::RunRecord& record) { record.stateHash = "fedcba9876543210"; });
+    write("debug", 1, [](results::RunRecord& record) { record.provenance.build.buildType = "Debug"; });
+    write("shorter", 1, [](results::RunRecord& record) { record.spec.frames = 9; });
 
     const Called same = compare("same");
     EXPECT_EQ(same.code, 0) << same.err;
@@ -230,7 +230,7 @@ TEST_F(CompareFolders, AnAlertIsMeasuredAgainAndStandsOnlyIfItAlertsAgain) {
 }
 
 TEST_F(CompareFolders, AFolderAgainstItselfPassesNoGate) {
-    write("a", 1, [](bench::RunRecord& record) { record.provenance.startedUtc = "2026-01-02T03:04:05Z"; });
+    write("a", 1, [](results::RunRecord& record) { record.provenance.startedUtc = "2026-01-02T03:04:05Z"; });
     fs::create_directory_symlink(folder_ / "a", folder_ / "link");
     fs::create_directories(folder_ / "within");
     fs::create_directory_symlink(folder_ / "a" / "runs", folder_ / "within" / "runs");
@@ -248,20 +248,20 @@ TEST_F(CompareFolders, AFolderAgainstItselfPassesNoGate) {
 
 TEST_F(CompareFolders, AnotherQuotaIsANote) {
     write("a", 1);
-    write("less", 1.001, [](bench::RunRecord& record) { record.provenance.machine.quotaCores = 0.5; });
+    write("less", 1.001, [](results::RunRecord& record) { record.provenance.machine.quotaCores = 0.5; });
     const Called called = compare("less");
     EXPECT_EQ(called.code, 0) << called.err;
     EXPECT_THAT(called.err, HasSubstr("note: quota_cores: '0' in A and '0.5' in B (2 configurations)"));
 }
 
 TEST_F(CompareFolders, InvalidRunsAreSaidAndPassNoGate) {
-    const auto invalid = [](bench::RunRecord& record) { record.validity = {"clipped is 4, allowed: up to 0"}; };
+    const auto invalid = [](results::RunRecord& record) { record.validity = {"clipped is 4, allowed: up to 0"}; };
     write("a", 1);
     write("all", 1, invalid);
     const Called one = compare("all");
     EXPECT_EQ(one.code, 6) << one.err;
     EXPECT_THAT(one.err, AllOf(HasSubstr("note: B: 12 of 12 runs are invalid"), HasSubstr("clipped is 4")));
-    write("some", 1.001, [&](bench::RunRecord& record) {
+    write("some", 1.001, [&](results::RunRecord& record) {
         if (record.spec.parameters["particles"] == "900") invalid(record);
     });
     const Called some = compare("some");
@@ -287,9 +287,9 @@ TEST_F(CompareFolders, AGateThatCouldNotCloseIsNotPassed) {
     EXPECT_EQ(called.code, 6);
     EXPECT_THAT(called.err, HasSubstr("no configuration has 6 timed runs"));
     // A new failure is a regression even with few runs.
-    write("fails", 1, [](bench::RunRecord& record) {
+    write("fails", 1, [](results::RunRecord& record) {
         if (record.spec.repetition > 1) return;
-        record.status = bench::RunStatus::timeout;
+        record.status = results::RunStatus::timeout;
         record.reason = "not finished after 2 s";
     });
     EXPECT_EQ(compare("fails").code, 5);
@@ -312,12 +312,12 @@ TEST_F(CompareFolders, WritesACsvAndTakesFoldersAsTheyAre) {
 
 TEST_F(CompareFolders, AlteredResultsAreRefusedAndThoseThatCannotTellAreSaid) {
     write("a", 1);
-    write("older", 1, [](bench::RunRecord& record) { record.outputs.reset(); });
+    write("older", 1, [](results::RunRecord& record) { record.outputs.reset(); });
     const Called older = compare("older");
     EXPECT_EQ(older.code, 0);
     EXPECT_THAT(older.err, AllOf(HasSubstr("older/': 12 of 12 runs"), HasSubstr("cannot be detected")));
     EXPECT_EQ(std::ranges::count(older.err, '\n'), 1) << older.err;
-    write("cut", 1, [](bench::RunRecord& record) { record.outputs = {{"frames.csv", 1, ""}}; });
+    write("cut", 1, [](results::RunRecord& record) { record.outputs = {{"frames.csv", 1, ""}}; });
     const Called cut = compare("cut");
     EXPECT_EQ(cut.code, 3);
     EXPECT_THAT(cut.err, HasSubstr("frames.csv is missing"));

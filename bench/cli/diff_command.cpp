@@ -24,18 +24,18 @@ struct DiffOptions {
     std::string reference;
     std::string image;
     std::string out;
-    double pixelsPerDegree = bench::defaultPixelsPerDegree;
+    double pixelsPerDegree = measure::defaultPixelsPerDegree;
     bool json = false;
 };
 
 struct Differences {
-    bench::PictureError error;
-    bench::Measured ssim, flip;
+    measure::PictureError error;
+    measure::Measured ssim, flip;
 };
 
-bench::Picture pictureOf(const std::string& file) {
+measure::Picture pictureOf(const std::string& file) {
     if (std::filesystem::is_directory(file)) throw InputError("image '" + file + "' cannot be read: it is a folder");
-    return bench::preparePicture(pictures::readImage(file), "'" + file + "'");
+    return measure::preparePicture(pictures::readImage(file), "'" + file + "'");
 }
 
 /// Undefined values are `null`.
@@ -68,12 +68,12 @@ int diff(const DiffOptions& options) {
     if (!options.out.empty() && std::filesystem::path(options.out).extension() != ".png")
         throw InputError("--out: got '" + options.out + "', allowed: a file that ends in .png");
     const files::InputLog read;
-    const bench::Picture reference = pictureOf(options.reference), image = pictureOf(options.image);
-    if (const std::string said = bench::saysIgnored(bench::ignoredParts(read.ignored())); !said.empty())
+    const measure::Picture reference = pictureOf(options.reference), image = pictureOf(options.image);
+    if (const std::string said = measure::saysIgnored(measure::ignoredParts(read.ignored())); !said.empty())
         std::cerr << "note: ignored: " << files::printable(said) << "\n";
-    const Differences found{bench::pictureError(reference, image), bench::ssim(reference, image),
-                            bench::flip(reference, image, options.pixelsPerDegree)};
-    if (!options.out.empty()) pictures::writeImage(bench::heatMap(found.flip.map), options.out);
+    const Differences found{measure::pictureError(reference, image), measure::ssim(reference, image),
+                            measure::flip(reference, image, options.pixelsPerDegree)};
+    if (!options.out.empty()) pictures::writeImage(measure::heatMap(found.flip.map), options.out);
     if (options.json)
         printJson(found);
     else
@@ -85,20 +85,21 @@ int diff(const DiffOptions& options) {
 
 Command diffCommand() {
     auto options = std::make_shared<DiffOptions>();
-    return {
-        "diff", "PSNR, SSIM, FLIP and RMSE of an image file against a reference, and a heat map",
-        "Reads all formats of OpenImageIO. Integers are sRGB and floats linear, unless the file states otherwise.\n"
-        "Both images must be opaque and have the same size. Ignored parts of a file are listed on stderr.\n"
-        "reports/METRICS.md defines the metrics.",
-        [options](Arguments& arguments) {
-            arguments.required("reference", "FILE", "the reference image", options->reference);
-            arguments.required("image", "FILE", "the image to compare with it", options->image);
-            arguments.flag("--json", "print JSON: psnr_db, ssim, flip, rmse_linear, identical", options->json);
-            arguments.text("--out", "FILE.png", "write FLIP's error map: black for 0, pale yellow for 1", options->out);
-            arguments.number("--pixels-per-degree", "for FLIP: pixels per degree of the observer's field of view",
-                             options->pixelsPerDegree, bench::minimumPixelsPerDegree, bench::maximumPixelsPerDegree);
-        },
-        [options] { return diff(*options); }};
+    return {"diff", "PSNR, SSIM, FLIP and RMSE of an image file against a reference, and a heat map",
+            "Reads all formats of OpenImageIO. Integers are sRGB and floats linear, unless the file states otherwise.\n"
+            "Both images must be opaque and have the same size. Ignored parts of a file are listed on stderr.\n"
+            "reports/METRICS.md defines the metrics.",
+            [options](Arguments& arguments) {
+                arguments.required("reference", "FILE", "the reference image", options->reference);
+                arguments.required("image", "FILE", "the image to compare with it", options->image);
+                arguments.flag("--json", "print JSON: psnr_db, ssim, flip, rmse_linear, identical", options->json);
+                arguments.text("--out", "FILE.png", "write FLIP's error map: black for 0, pale yellow for 1",
+                               options->out);
+                arguments.number("--pixels-per-degree", "for FLIP: pixels per degree of the observer's field of view",
+                                 options->pixelsPerDegree, measure::minimumPixelsPerDegree,
+                                 measure::maximumPixelsPerDegree);
+            },
+            [options] { return diff(*options); }};
 }
 
 }  // namespace dustbench::cli

@@ -179,8 +179,8 @@ TEST_F(Dustbench, RepetitionsDifferInWhatIsMeasuredAndInNothingElse) {
     ASSERT_EQ(called.code, 0) << called.err;
     const auto folders = runs(out());
     ASSERT_EQ(folders.size(), 2u);
-    const bench::StoredRun a = bench::readRunFile(folders[0] / "run.json");
-    const bench::StoredRun b = bench::readRunFile(folders[1] / "run.json");
+    const results::StoredRun a = results::readRunFile(folders[0] / "run.json");
+    const results::StoredRun b = results::readRunFile(folders[1] / "run.json");
     const auto differing = [](const auto& first, const auto& second) {
         std::vector<std::string> names;
         EXPECT_EQ(first.size(), second.size());
@@ -198,7 +198,7 @@ TEST_F(Dustbench, RepetitionsDifferInWhatIsMeasuredAndInNothingElse) {
     EXPECT_EQ(a.parameters, b.parameters);
     ASSERT_TRUE(a.outputs && a.outputs->size() >= 2);
     EXPECT_EQ(a.outputs->at(0).file, "frames.csv");
-    EXPECT_EQ(bench::whyAltered(*a.outputs, folders[0]), "");
+    EXPECT_EQ(results::whyAltered(*a.outputs, folders[0]), "");
     EXPECT_EQ(a.stateHash, b.stateHash);
     EXPECT_EQ(a.provenance.at("key").size(), b.provenance.at("key").size());
 }
@@ -340,8 +340,8 @@ TEST_F(Dustbench, ARunThatTakesTooLongIsATimeoutAndExitCodeOne) {
     const Called called = call(fmt::format("suite {}/slow.toml --timeout 2 --out {}", folder_.string(), out()));
     EXPECT_EQ(called.code, 1) << called.err;
     ASSERT_EQ(runs(out()).size(), 1u);
-    const bench::StoredRun run = bench::readRunFile(runs(out()).at(0) / "run.json");
-    EXPECT_EQ(run.status, bench::RunStatus::timeout);
+    const results::StoredRun run = results::readRunFile(runs(out()).at(0) / "run.json");
+    EXPECT_EQ(run.status, results::RunStatus::timeout);
     EXPECT_THAT(run.reason, HasSubstr("not finished after 2 s"));
 }
 

@@ -18,15 +18,15 @@ namespace dustbench::cli {
 namespace {
 
 struct Found {
-    bench::Provenance provenance;
+    measure::Provenance provenance;
     std::vector<gpu::Adapter> adapters;
-    std::optional<bench::HarnessCost> harness;
+    std::optional<run::HarnessCost> harness;
     bool cpuEnergy = false, gpuEnergy = false;
 };
 
 /// OpenGL may be missing: this command must report that.
 void lookAtGpu(Found& found) {
-    bench::Provenance& provenance = found.provenance;
+    measure::Provenance& provenance = found.provenance;
     try {
         found.adapters = gpu::listAdapters();
         gpu::Device device;
@@ -46,15 +46,15 @@ Found look() {
     if (const std::string asked = gpu::askedAdapter(); !asked.empty())
         (void)gpu::findAdapter(gpu::listAdapters(), asked);
     Found found;
-    found.provenance = bench::startProvenance(bench::commandLine());
+    found.provenance = measure::startProvenance(measure::commandLine());
     lookAtGpu(found);
     try {
-        found.harness = bench::measureHarness(childExecution());
+        found.harness = run::measureHarness(childExecution());
     } catch (const InputError& error) {
         found.provenance.warnings.push_back(std::string("missing: the harness's own cost: ") + error.what());
     }
-    found.cpuEnergy = bench::packageEnergy() != nullptr;
-    found.gpuEnergy = bench::gpuEnergy(found.provenance.device.renderer) != nullptr;
+    found.cpuEnergy = measure::packageEnergy() != nullptr;
+    found.gpuEnergy = measure::gpuEnergy(found.provenance.device.renderer) != nullptr;
     return found;
 }
 
@@ -65,13 +65,13 @@ std::string energyText(const Found& found) {
 }
 
 std::string json(const Found& found) {
-    bench::Columns cells{{"energy", energyText(found)}};
+    results::Columns cells{{"energy", energyText(found)}};
     if (found.harness) {
         cells.emplace_back("harness_us", found.harness->harnessUs);
         cells.emplace_back("harness_frame_ms", found.harness->frameMs);
         cells.emplace_back("start_s", found.harness->startSeconds);
     }
-    return bench::provenanceToJson(found.provenance, found.adapters, cells);
+    return results::provenanceToJson(found.provenance, found.adapters, cells);
 }
 
 /// `1: surfaceless, llvmpipe (LLVM 15.0.6, 256 bits), software; chosen: no hardware adapter: surfaceless`
@@ -84,12 +84,12 @@ std::string adapterText(const gpu::Adapter& adapter, const gpu::DeviceInfo& take
 }
 
 void print(const Found& found) {
-    const bench::Provenance& provenance = found.provenance;
+    const measure::Provenance& provenance = found.provenance;
     const auto line = [](const char* name, const std::string& value) {
         std::cout << fmt::format("{:<10} {}\n", name, value.empty() ? "unknown" : value);
     };
-    const bench::Machine& machine = provenance.machine;
-    const bench::BuildFacts& build = provenance.build;
+    const measure::Machine& machine = provenance.machine;
+    const measure::BuildFacts& build = provenance.build;
     line("cpu", fmt::format("{}, {} cores", machine.cpu.empty() ? "unknown" : machine.cpu, machine.cores));
     line("governor", machine.governor);
     line("memory", fmt::format("{:.1f} GiB", static_cast<double>(machine.ramBytes) / (1 << 30)));

@@ -19,20 +19,20 @@ struct ExportOptions {
     std::string out;
 };
 
-bench::PlannedRun plannedExport(const ExportOptions& options) {
-    bench::RunSpec spec = options.world.toSpec();
-    spec.volumes = options.volumes.over(bench::VolumeSettings());
+suite::PlannedRun plannedExport(const ExportOptions& options) {
+    results::RunSpec spec = options.world.toSpec();
+    spec.volumes = options.volumes.over(exports::VolumeSettings());
     spec.frames = spec.volumes->frames.last + 1;
-    const auto runs = bench::expandParameters(spec, findMethod(spec.method), options.world.parameterLists());
+    const auto runs = suite::expandParameters(spec, findMethod(spec.method), options.world.parameterLists());
     if (runs.size() != 1)
         throw InputError("-P: got " + std::to_string(runs.size()) +
                          " combinations of values, allowed: one value for each parameter");
-    bench::requireChangesWithinRun(runs.front().spec);
+    results::requireChangesWithinRun(runs.front().spec);
     return runs.front();
 }
 
 int exportVolumes(const ExportOptions& options) {
-    const bench::PlannedRun run = plannedExport(options);
+    const suite::PlannedRun run = plannedExport(options);
     requireOpenGl();
     listenForInterruption();
     ProgressPrinter printer;
@@ -40,9 +40,9 @@ int exportVolumes(const ExportOptions& options) {
     const auto progress = [&printer](std::string_view phase, std::int64_t done, std::int64_t total) {
         printer.progressed(std::string(phase) + " " + std::to_string(done) + " " + std::to_string(total));
     };
-    const bench::ExportResult result =
-        bench::exportVolumes(run.spec, options.out, bench::commandLine(), progress, [] { return interrupted(); });
-    printer.ended(run, bench::RunStatus::done, "");
+    const run::ExportResult result =
+        run::exportVolumes(run.spec, options.out, measure::commandLine(), progress, [] { return interrupted(); });
+    printer.ended(run, results::RunStatus::done, "");
     for (const std::filesystem::path& series : result.series) std::cout << series.string() << "\n";
     if (result.gridsDiffer)
         std::cerr

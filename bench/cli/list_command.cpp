@@ -41,7 +41,7 @@ void printKeys(const std::vector<Parameter>& keys) {
     }
 }
 
-void printItem(const bench::CatalogueItem& item, bool inDetail) {
+void printItem(const suite::CatalogueItem& item, bool inDetail) {
     std::cout << fmt::format("  {:<20} {}\n", item.id, item.title);
     if (!item.summary.empty()) std::cout << fmt::format("  {:<20} {}\n", "", item.summary);
     if (!item.origin.empty()) std::cout << fmt::format("  {:<20} from {}\n", "", item.origin);
@@ -54,7 +54,7 @@ void printItem(const bench::CatalogueItem& item, bool inDetail) {
 }
 
 void printRefusedLibraries() {
-    for (const bench::MethodLibrary& library : bench::methodLibraries())
+    for (const suite::MethodLibrary& library : suite::methodLibraries())
         if (!library.whyNot.empty())
             std::cout << files::printable(fmt::format("  {:<20} {} is not loaded: {}", library.id,
                                                       library.file.string(), library.whyNot))
@@ -64,30 +64,30 @@ void printRefusedLibraries() {
 int list(const ListOptions& options) {
     if (options.ids && options.json) throw InputError("--ids: got --json as well, allowed: one of them");
     if (!options.what.empty()) {
-        const std::vector<std::string>& kinds = bench::catalogueKinds();
+        const std::vector<std::string>& kinds = suite::catalogueKinds();
         if (std::ranges::find(kinds, options.what) == kinds.end()) throw unknownName("list", options.what, kinds);
     }
-    std::vector<bench::CatalogueItem> all;
-    for (const std::string& kind : bench::catalogueKinds()) {
+    std::vector<suite::CatalogueItem> all;
+    for (const std::string& kind : suite::catalogueKinds()) {
         if (!options.what.empty() && options.what != kind) continue;
-        std::vector<bench::CatalogueItem> items = bench::catalogue(kind);
-        if (!options.id.empty()) items = {bench::findItem(kind, items, options.id)};
+        std::vector<suite::CatalogueItem> items = suite::catalogue(kind);
+        if (!options.id.empty()) items = {suite::findItem(kind, items, options.id)};
         if (options.ids) {
-            for (const bench::CatalogueItem& item : items) std::cout << item.id << '\n';
+            for (const suite::CatalogueItem& item : items) std::cout << item.id << '\n';
         } else if (!options.json) {
             std::cout << kind << ":\n";
-            for (const bench::CatalogueItem& item : items) printItem(item, !options.what.empty());
+            for (const suite::CatalogueItem& item : items) printItem(item, !options.what.empty());
             if (kind == "suites" && !options.id.empty()) std::cout << describeSuite(options.id);
             const bool ofLibraries = kind == "methods" || (kind == "parts" && !options.what.empty());
             if (ofLibraries && options.id.empty()) printRefusedLibraries();
             if (kind == "methods" && !options.what.empty() && options.id.empty()) {
                 std::cout << "parameters of the world, available with every method:\n";
-                printParameters(bench::worldParameterList());
+                printParameters(suite::worldParameterList());
             }
         }
         all.insert(all.end(), items.begin(), items.end());
     }
-    if (options.json) std::cout << bench::catalogueJson(all);
+    if (options.json) std::cout << suite::catalogueJson(all);
     return exitOk;
 }
 
@@ -103,7 +103,7 @@ Command listCommand() {
         "event: "
         "[[force]].",
         [options](Arguments& arguments) {
-            arguments.text("what", fmt::format("{}", fmt::join(bench::catalogueKinds(), "|")), "default: all",
+            arguments.text("what", fmt::format("{}", fmt::join(suite::catalogueKinds(), "|")), "default: all",
                            options->what);
             arguments.text("id", "", "only this one", options->id);
             arguments.flag("--ids", "print only ids, one per line", options->ids);

@@ -26,8 +26,8 @@ namespace dustbench::cli {
 namespace {
 
 /// Prints one line to stderr, even if the message quotes line breaks or control characters from a file.
-void say(const bench::RunError& error) {
-    using Kind = bench::RunError::Kind;
+void say(const run::RunError& error) {
+    using Kind = run::RunError::Kind;
     const bool isOfMachine = error.kind == Kind::machine || error.kind == Kind::memory;
     const std::string_view kind = isOfMachine ? "aborted: " : error.kind == Kind::internal ? "internal error: " : "";
     std::cerr << "dustbench: " << kind << files::printable(error.message) << std::endl;
@@ -64,8 +64,8 @@ CommonOptions commonOptions() {
                 if (const auto folders = all(*data); !folders.empty()) files::useDataFolders("--data", folders);
                 (void)files::namedDataFolders();  // a missing folder is an error for every command
                 if (const auto folders = all(*methodPath); !folders.empty())
-                    bench::useMethodFolders("--method-path", folders);
-                bench::loadMethodLibraries();
+                    suite::useMethodFolders("--method-path", folders);
+                suite::loadMethodLibraries();
             }};
 }
 
@@ -89,7 +89,7 @@ int run(const std::vector<std::string>& argv) {
     std::ranges::move(toolCommands(), std::back_inserter(commands));
     const CommonOptions common = commonOptions();
     std::ranges::move(manualCommands(commands, common), std::back_inserter(commands));
-    return dispatch(commands, common, "dustbench " + bench::buildFacts().version, argv);
+    return dispatch(commands, common, "dustbench " + measure::buildFacts().version, argv);
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
         cli::requireWritten();
         return code;
     } catch (const std::exception&) {
-        const bench::RunError error = cli::errorOfException();
+        const run::RunError error = cli::errorOfException();
         cli::say(error);
         return cli::exitCodeOf(error.kind);
     }

@@ -370,7 +370,7 @@ std::vector<Command> manualCommands(const std::vector<Command>& commands, const 
                                    return int{exitOk};
                                }),
                                manualCommand([all, options] {
-                                   std::cout << manPage(*all, options, bench::buildFacts().version);
+                                   std::cout << manPage(*all, options, measure::buildFacts().version);
                                    return int{exitOk};
                                })};
     std::ranges::move(declaredCommands(added), std::back_inserter(*all));

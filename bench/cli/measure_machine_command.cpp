@@ -52,7 +52,7 @@ class PlacedProgress final : public ProgressPrinter {
         position_ = position;
         total_ = total;
     }
-    void started(std::size_t, std::size_t, const bench::PlannedRun& run, int repetitions, double) override {
+    void started(std::size_t, std::size_t, const suite::PlannedRun& run, int repetitions, double) override {
         ProgressPrinter::started(position_, total_, run, repetitions, -1);
     }
 
@@ -60,13 +60,13 @@ class PlacedProgress final : public ProgressPrinter {
     std::size_t position_ = 0, total_ = 0;
 };
 
-bench::LadderLimits limitsHere(const bench::MachinePlan& plan) {
+suite::LadderLimits limitsHere(const suite::MachinePlan& plan) {
     const gpu::Device device;
-    bench::LadderLimits limits = device.isSoftware() ? plan.software : plan.hardware;
+    suite::LadderLimits limits = device.isSoftware() ? plan.software : plan.hardware;
     limits.hostBytes = plan.memoryShare * static_cast<double>(availableBytes());
     if (const auto free = device.driverFreeBytes()) limits.deviceBytes = plan.memoryShare * static_cast<double>(*free);
     std::cerr << fmt::format("{}: at most {}\n", files::printable(device.info().renderer),
-                             bench::durationText(limits.totalSeconds));
+                             run::durationText(limits.totalSeconds));
     return limits;
 }
 
@@ -82,15 +82,15 @@ class SelfCheck {
         std::cerr << "self-check" << std::endl;
         const Clock::time_point start = Clock::now();
         const fs::path log = folder_ / "selfcheck.log";
-        bench::ChildCommand command;
+        run::ChildCommand command;
         command.argv = {"/proc/self/exe", "selfcheck", "--out", folder_.string()};
         command.log = log;
         command.timeoutSeconds = 600;
         command.onLine = [](std::string_view) {};
         command.interrupted = [] { return interrupted(); };
-        const bench::ChildOutcome outcome = bench::runChild(command);
+        const run::ChildOutcome outcome = run::runChild(command);
         seconds_ = secondsSince(start);
-        if (outcome.end == bench::ChildOutcome::End::interrupted) return false;
+        if (outcome.end == run::ChildOutcome::End::interrupted) return false;
         if (fs::exists(folder_ / "selfcheck.json"))
             fs::remove(log);
         else
@@ -100,7 +100,7 @@ class SelfCheck {
     [[nodiscard]] double seconds() const { return seconds_; }
     /// One sentence for each failure.
     [[nodiscard]] std::vector<std::string> problems() const {
-        return crash_.empty() ? bench::selfcheckProblems(folder_) : std::vector{crash_};
+        return crash_.empty() ? selfcheck::selfcheckProblems(folder_) : std::vector{crash_};
     }
 
  private:
@@ -109,16 +109,16 @@ class SelfCheck {
     std::string crash_;
 };
 
-bool clockFell(const bench::StoredRun& run) {
-    return std::ranges::any_of(run.warnings, bench::saysClockFell);
+bool clockFell(const results::StoredRun& run) {
+    return std::ranges::any_of(run.warnings, measure::saysClockFell);
 }
 
 /// Runs the ladder. Existing results count with the time that they took.
 class MachineMeasurement {
  public:
-    MachineMeasurement(const bench::MachinePlan& plan, const bench::LadderLimits& limits, bench::ResultsFolder& results,
-                       double elapsedSeconds)
-        : cells_(bench::cellsOf(plan)),
+    MachineMeasurement(const suite::MachinePlan& plan, const suite::LadderLimits& limits,
+                       results::ResultsFolder& results, double elapsedSeconds)
+        : cells_(suite::cellsOf(plan)),
           limits_(limits),
           ladder_(laddersOf(cells_), limits),
           results_(results),
@@ -128,8 +128,8 @@ class MachineMeasurement {
     /// False if it was interrupted.
     [[nodiscard]] bool run() {
         while (const auto step = ladder_.next(elapsed_)) {
-            bench::PlannedRun run = cells_[step->cell].run;
-            run.spec = bench::inRepetition(run.spec, step->repetition);
+            suite::PlannedRun run = cells_[step->cell].run;
+            run.spec = suite::inRepetition(run.spec, step->repetition);
             run.skip = step->skip;
             if (!measure(run, *step)) return false;
         }
@@ -141,11 +141,11 @@ class MachineMeasurement {
     [[nodiscard]] bool anyFailed() const { return failed_ > 0; }
 
     void printSummary() const {
-        std::cerr << fmt::format("{} runs done in {}, {} left out, {} failed\n", done_, bench::durationText(elapsed_),
+        std::cerr << fmt::format("{} runs done in {}, {} left out, {} failed\n", done_, run::durationText(elapsed_),
                                  leftOut_, failed_);
         if (ladder_.repetitionsLeftOut() > 0)
             std::cerr << fmt::format("{} further repetitions did not fit into {}\n", ladder_.repetitionsLeftOut(),
-                                     bench::durationText(limits_.totalSeconds));
+                                     run::durationText(limits_.totalSeconds));
         if (slowed_ > 0)
             std::cerr << fmt::format(
                 "runs whose clock fell, even when they were measured again: {}; see their warnings\n", slowed_);
@@ -155,56 +155,56 @@ class MachineMeasurement {
     }
 
  private:
-    static std::vector<bench::LadderCell> laddersOf(const std::vector<bench::PlacedCell>& cells) {
-        std::vector<bench::LadderCell> ladders;
+    static std::vector<suite::LadderCell> laddersOf(const std::vector<suite::PlacedCell>& cells) {
+        std::vector<suite::LadderCell> ladders;
         ladders.reserve(cells.size());
-        for (const bench::PlacedCell& cell : cells) ladders.push_back(cell.ladder);
+        for (const suite::PlacedCell& cell : cells) ladders.push_back(cell.ladder);
         return ladders;
     }
 
-    bool measure(const bench::PlannedRun& run, const bench::LadderStep& step) {
-        const bench::LadderCell& cell = cells_[step.cell].ladder;
+    bool measure(const suite::PlannedRun& run, const suite::LadderStep& step) {
+        const suite::LadderCell& cell = cells_[step.cell].ladder;
         position_ = ++positions_[step.repetition];
         const Clock::time_point start = Clock::now();
         bool isNew = false;
         if (!execute(run, cell, false, isNew)) return false;
-        const std::string id = bench::runId(run.spec);
+        const std::string id = results::runId(run.spec);
         if (isNew && clockFell(results_.runs().at(id)) && !execute(run, cell, true, isNew)) return false;
-        const bench::StoredRun& stored = results_.runs().at(id);
-        elapsed_ += isNew ? secondsSince(start) : bench::needsOf(stored, run.spec).allSeconds();
+        const results::StoredRun& stored = results_.runs().at(id);
+        elapsed_ += isNew ? secondsSince(start) : suite::needsOf(stored, run.spec).allSeconds();
         count(stored, run, step);
         return true;
     }
 
-    bool execute(const bench::PlannedRun& run, const bench::LadderCell& cell, bool again, bool& isNew) {
+    bool execute(const suite::PlannedRun& run, const suite::LadderCell& cell, bool again, bool& isNew) {
         const double allowed = limits_.runSeconds + (run.spec.metricPlan ? limits_.metricSeconds : 0);
         execution_.timeoutSeconds = 2 * allowed;
         execution_.force = again;
         progress_.place(position_, cells_.size());
-        const bench::ExecutionResult result = bench::execute({run}, cell.repetitions, results_, execution_, progress_);
+        const run::ExecutionResult result = run::execute({run}, cell.repetitions, results_, execution_, progress_);
         if (outdated_.empty()) outdated_ = result.whyOutdated;
         isNew = result.kept == 0;
         return !result.aborted;
     }
 
-    void count(const bench::StoredRun& stored, const bench::PlannedRun& run, const bench::LadderStep& step) {
-        using Status = bench::RunStatus;
+    void count(const results::StoredRun& stored, const suite::PlannedRun& run, const suite::LadderStep& step) {
+        using Status = results::RunStatus;
         if (stored.status == Status::done) {
             ++done_;
             if (clockFell(stored)) ++slowed_;
-            if (step.skip.empty()) ladder_.done(step, bench::needsOf(stored, run.spec));
+            if (step.skip.empty()) ladder_.done(step, suite::needsOf(stored, run.spec));
             return;
         }
         ++(stored.status == Status::failed ? failed_ : leftOut_);
         if (step.skip.empty()) ladder_.failed(step);
     }
 
-    std::vector<bench::PlacedCell> cells_;
-    bench::LadderLimits limits_;
-    bench::LoadLadder ladder_;
-    bench::ResultsFolder& results_;
+    std::vector<suite::PlacedCell> cells_;
+    suite::LadderLimits limits_;
+    suite::LoadLadder ladder_;
+    results::ResultsFolder& results_;
     double elapsed_;
-    bench::ExecutionOptions execution_;
+    run::ExecutionOptions execution_;
     PlacedProgress progress_;
     std::size_t position_ = 0, done_ = 0, leftOut_ = 0, failed_ = 0, slowed_ = 0;
     std::map<int, std::size_t> positions_;  ///< by repetition
@@ -221,41 +221,41 @@ fs::path bundleOf(const fs::path& out) {
 }
 
 /// Writes the tables, which are small enough for a repository.
-void writeTables(const bench::ResultsFolder& results) {
+void writeTables(const results::ResultsFolder& results) {
     const fs::path tables = results.path() / "tables";
     std::error_code error;
     fs::create_directories(tables, error);
     if (error) files::failWriting(tables.string(), error.value());
-    bench::writeWhole(tables / "summary.csv", bench::summaryCsv(results.runs()));
-    bench::writeWhole(tables / "runs.csv", bench::runsCsv(results.runs()));
-    bench::writeWhole(tables / "machine.csv", bench::machineCsv(results.runs()));
+    exports::writeWhole(tables / "summary.csv", results::summaryCsv(results.runs()));
+    exports::writeWhole(tables / "runs.csv", results::runsCsv(results.runs()));
+    exports::writeWhole(tables / "machine.csv", results::machineCsv(results.runs()));
     if (const fs::path found = results.path() / "selfcheck.json"; fs::exists(found))
         fs::copy_file(found, tables / "selfcheck.json", fs::copy_options::overwrite_existing);
 }
 
-void writeResults(const bench::ResultsFolder& results) {
+void writeResults(const results::ResultsFolder& results) {
     const fs::path archive = bundleOf(results.path());
     writeTables(results);
     std::cout << (results.path() / "tables").string() << "\n";
-    const bench::ReportData report = bench::readReport(results.path(), bench::defaultPictureBytes);
-    std::cout << bench::writePage(results.path(), report).string() << "  (open it in a browser)\n" << std::flush;
-    for (const std::string& missing : bench::packBundle(results.path(), archive).missing)
+    const report::ReportData report = report::readReport(results.path(), report::defaultPictureBytes);
+    std::cout << report::writePage(results.path(), report).string() << "  (open it in a browser)\n" << std::flush;
+    for (const std::string& missing : suite::packBundle(results.path(), archive).missing)
         std::cerr << "note: " << files::printable(missing) << "\n";
     std::cout << archive.string() << "  (send this)\n";
 }
 
 int measureMachine(const MeasureMachineOptions& options) {
-    const bench::MachinePlan plan = bench::loadMachinePlan(options.quick);
-    std::vector<bench::PlannedRun> runs;
-    for (bench::PlacedCell& cell : bench::cellsOf(plan)) runs.push_back(std::move(cell.run));
+    const suite::MachinePlan plan = suite::loadMachinePlan(options.quick);
+    std::vector<suite::PlannedRun> runs;
+    for (suite::PlacedCell& cell : suite::cellsOf(plan)) runs.push_back(std::move(cell.run));
     checkWorlds(runs);
     const fs::path out(options.out), archive = bundleOf(out);
     if (fs::exists(fs::symlink_status(archive)) && !fs::exists(out / "runs"))
         throw InputError(fmt::format("bundle '{}': already exists and does not belong to '{}'; choose another --out",
                                      archive.string(), out.string()));
-    if (fs::is_directory(out)) bench::requireOwnPage(out);
-    const bench::LadderLimits limits = limitsHere(plan);
-    bench::ResultsFolder results(out);
+    if (fs::is_directory(out)) report::requireOwnPage(out);
+    const suite::LadderLimits limits = limitsHere(plan);
+    results::ResultsFolder results(out);
     listenForInterruption();
     SelfCheck check(out);
     const auto aborted = [] {

@@ -17,10 +17,10 @@
 namespace dustbench::cli {
 namespace {
 
-bench::RunSpec specOf(const std::vector<std::string>& argv) {
+results::RunSpec specOf(const std::vector<std::string>& argv) {
     if (argv.size() < 4 || argv[3] != "--")
         throw InputError(argv[0] + ": expected the arguments SPEC FOLDER -- COMMAND");
-    return bench::specFromJson(files::wholeText(argv[1], "a run's specification"));
+    return results::specFromJson(files::wholeText(argv[1], "a run's specification"));
 }
 
 /// Not buffered: the parent process waits for it.
@@ -29,8 +29,8 @@ void send(const std::string& line) {
 }
 
 void measure(const std::vector<std::string>& argv) {
-    bench::loadMethodLibraries();
-    const bench::RunSpec spec = specOf(argv);
+    suite::loadMethodLibraries();
+    const results::RunSpec spec = specOf(argv);
     const std::filesystem::path folder = argv[2];
 
     auto lastSaid = std::chrono::steady_clock::now();
@@ -38,11 +38,11 @@ void measure(const std::vector<std::string>& argv) {
         const auto now = std::chrono::steady_clock::now();
         if (now - lastSaid < std::chrono::milliseconds(100) && done != total) return;
         lastSaid = now;
-        send(bench::lineOf(phase, done, total));
+        send(run::lineOf(phase, done, total));
     };
-    const bench::RunRecord record =
-        bench::measureRun(spec, folder, {argv.begin() + 4, argv.end()}, progress, bench::referencesBeside(folder));
-    bench::writeWhole(folder / "run.json", bench::toJson(record));
+    const results::RunRecord record =
+        run::measureRun(spec, folder, {argv.begin() + 4, argv.end()}, progress, results::referencesBeside(folder));
+    exports::writeWhole(folder / "run.json", results::toJson(record));
 }
 
 }  // namespace
@@ -51,15 +51,15 @@ int measureRunCommand(const std::vector<std::string>& argv) {
     try {
         measure(argv);
     } catch (const std::exception&) {
-        send(bench::lineOf(errorOfException()));
+        send(run::lineOf(errorOfException()));
         throw;
     }
     return exitOk;
 }
 
 int forecastRunCommand(const std::vector<std::string>& argv) {
-    bench::loadMethodLibraries();
-    send(bench::lineOf(bench::forecastRun(specOf(argv), argv[2])));
+    suite::loadMethodLibraries();
+    send(run::lineOf(run::forecastRun(specOf(argv), argv[2])));
     return exitOk;
 }
 

@@ -23,24 +23,24 @@ struct MergeOptions {
 };
 
 /// Prints each difference between the machine of a run and that of the first run, once.
-void sayWhereMachinesDiffer(const bench::StoredRuns& runs) {
-    const bench::StoredRun* first = nullptr;
+void sayWhereMachinesDiffer(const results::StoredRuns& runs) {
+    const results::StoredRun* first = nullptr;
     std::set<std::string> said;
     for (const auto& [id, run] : runs) {
-        if (run.status != bench::RunStatus::done) continue;
+        if (run.status != results::RunStatus::done) continue;
         if (!first) first = &run;
-        for (const auto& [field, mine, other] : bench::differences(*first, run, bench::machineFields()))
+        for (const auto& [field, mine, other] : results::differences(*first, run, results::machineFields()))
             if (const std::string text = fmt::format("{}: '{}' and '{}'", field, mine, other); said.insert(text).second)
                 std::cerr << "note: the runs are from different machines, " << files::printable(text) << "\n";
     }
 }
 
 /// Plans the copies. If that fails, removes the empty folder of `results` if it was `missing` before.
-bench::MergePlan planWhole(const std::vector<bench::MergeSource>& sources, const bench::ResultsFolder& results,
-                           const std::vector<fs::path>& missing) {
+results::MergePlan planWhole(const std::vector<results::MergeSource>& sources, const results::ResultsFolder& results,
+                             const std::vector<fs::path>& missing) {
     try {
-        bench::MergePlan plan = bench::planMerge(sources, results);
-        bench::requireSpace(plan, results.path(), fs::space(results.path()).available);
+        results::MergePlan plan = results::planMerge(sources, results);
+        results::requireSpace(plan, results.path(), fs::space(results.path()).available);
         return plan;
     } catch (...) {
         std::error_code notEmpty;
@@ -50,21 +50,21 @@ bench::MergePlan planWhole(const std::vector<bench::MergeSource>& sources, const
 }
 
 int mergeFolders(const MergeOptions& options) {
-    std::vector<bench::MergeSource> sources;
+    std::vector<results::MergeSource> sources;
     sources.reserve(options.sources.size());
-    for (const std::string& folder : options.sources) sources.emplace_back(folder, bench::readStoredRuns(folder));
+    for (const std::string& folder : options.sources) sources.emplace_back(folder, results::readStoredRuns(folder));
     std::vector<fs::path> missing;
     for (const fs::path& each : {fs::path(options.out) / "runs", fs::path(options.out)})
         if (!fs::exists(each)) missing.push_back(each);
-    bench::ResultsFolder results(options.out);
-    const bench::MergePlan plan = planWhole(sources, results, missing);
+    results::ResultsFolder results(options.out);
+    const results::MergePlan plan = planWhole(sources, results, missing);
     listenForInterruption();
-    if (!bench::merge(plan, results, interrupted)) {
+    if (!results::merge(plan, results, interrupted)) {
         std::cerr << "aborted; repeat the command to resume" << std::endl;
         return exitAborted;
     }
     sayWhereMachinesDiffer(results.runs());
-    if (const std::string said = bench::saysNothingOfOutputs(results.runs()); !said.empty())
+    if (const std::string said = results::saysNothingOfOutputs(results.runs()); !said.empty())
         std::cerr << "warning: " << said << "\n";
     std::cerr << fmt::format("{} copied, {} existing\n", plan.copies.size(), plan.there);
     std::cout << (results.path() / "summary.csv").string() << "\n";

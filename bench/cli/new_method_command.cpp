@@ -73,7 +73,7 @@ std::string prefixOption() {
     if (!fs::exists(prefix / "lib/cmake/dustbench/dustbenchConfig.cmake"))
         return " -DCMAKE_PREFIX_PATH=WHERE_DUSTBENCH_IS_INSTALLED";
     if (prefix == "/usr" || prefix == "/usr/local") return "";
-    return " -DCMAKE_PREFIX_PATH=" + bench::shellQuoted(prefix.string());
+    return " -DCMAKE_PREFIX_PATH=" + results::shellQuoted(prefix.string());
 }
 
 int newMethod(const std::string& id) {
@@ -82,7 +82,7 @@ int newMethod(const std::string& id) {
     for (const TemplateFile& file : templateFiles) {
         const fs::path from = files::dataPath(fs::path("templates/method") / file.from);
         if (from.empty()) throw InputError(fmt::format("data: the file templates/method/{} is missing", file.from));
-        bench::writeWhole(fs::path(id) / filledIn(file.to, id), filledIn(files::wholeText(from, "template"), id));
+        exports::writeWhole(fs::path(id) / filledIn(file.to, id), filledIn(files::wholeText(from, "template"), id));
     }
     std::cout << fmt::format(
         "Created the project {0}/. Build and test it, then run the method with dustbench:\n"

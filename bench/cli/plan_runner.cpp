@@ -21,13 +21,13 @@ namespace dustbench::cli {
 namespace {
 
 /// Number of simultaneous runs: one if any run's times are measured, otherwise one per core.
-int simultaneousOf(const std::vector<bench::PlannedRun>& plan) {
-    const bool isTimed = std::ranges::any_of(plan, [](const bench::PlannedRun& run) { return run.spec.timed; });
+int simultaneousOf(const std::vector<suite::PlannedRun>& plan) {
+    const bool isTimed = std::ranges::any_of(plan, [](const suite::PlannedRun& run) { return run.spec.timed; });
     return isTimed ? 1 : static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
 }
 
-bench::ExecutionOptions executionOf(const std::vector<bench::PlannedRun>& plan, const PlanOptions& options) {
-    bench::ExecutionOptions execution = childExecution();
+run::ExecutionOptions executionOf(const std::vector<suite::PlannedRun>& plan, const PlanOptions& options) {
+    run::ExecutionOptions execution = childExecution();
     execution.simultaneous = simultaneousOf(plan);
     execution.force = options.force;
     execution.retryFailed = options.retryFailed;
@@ -65,12 +65,12 @@ void handleBy(void (*handler)(int)) {
 
 }  // namespace
 
-bench::ExecutionOptions childExecution() {
+run::ExecutionOptions childExecution() {
     listenForInterruption();
-    bench::ExecutionOptions execution;
-    execution.argv = bench::commandLine();
+    run::ExecutionOptions execution;
+    execution.argv = measure::commandLine();
     execution.interrupted = [] { return interrupted(); };
-    const auto calling = [argv = execution.argv](const char* name) -> bench::ChildCommandLine {
+    const auto calling = [argv = execution.argv](const char* name) -> run::ChildCommandLine {
         return [argv, name](const std::filesystem::path& spec, const std::filesystem::path& folder) {
             std::vector<std::string> command{"/proc/self/exe", name, spec.string(), folder.string(), "--"};
             command.insert(command.end(), argv.begin(), argv.end());
@@ -86,25 +86,25 @@ void requireOpenGl() {
     const gpu::Device mustExist;
 }
 
-bench::PlanForecast forecastRuns(const std::vector<bench::PlannedRun>& plan, bench::ResultsFolder& results,
-                                 PlanOptions& options) {
-    bench::ExecutionOptions execution = executionOf(plan, options);
+run::PlanForecast forecastRuns(const std::vector<suite::PlannedRun>& plan, results::ResultsFolder& results,
+                               PlanOptions& options) {
+    run::ExecutionOptions execution = executionOf(plan, options);
     ProgressPrinter printer;
-    bench::PlanForecast forecast = bench::forecastPlan(plan, results, execution, printer);
+    run::PlanForecast forecast = run::forecastPlan(plan, results, execution, printer);
     printer.eraseBar();
     options.forecasts = std::move(execution.forecasts);
     return forecast;
 }
 
-int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::ResultsFolder& results,
+int runPlan(const std::vector<suite::PlannedRun>& plan, int repetitions, results::ResultsFolder& results,
             const PlanOptions& options) {
-    const bench::ExecutionOptions execution = executionOf(plan, options);
+    const run::ExecutionOptions execution = executionOf(plan, options);
     for (const std::string& sentence : results.setAside())
         std::cerr << "warning: " << files::printable(sentence) << std::endl;
-    if (const std::string said = bench::saysNothingOfOutputs(results.runs()); !said.empty())
+    if (const std::string said = results::saysNothingOfOutputs(results.runs()); !said.empty())
         std::cerr << "warning: " << said << std::endl;
     ProgressPrinter printer(execution.simultaneous == 1);
-    const bench::ExecutionResult result = bench::execute(plan, repetitions, results, execution, printer);
+    const run::ExecutionResult result = run::execute(plan, repetitions, results, execution, printer);
     if (result.aborted) {
         std::cerr << "aborted; repeat the command to resume" << std::endl;
         return exitAborted;
@@ -135,9 +135,9 @@ double ProgressPrinter::phaseSeconds(std::chrono::steady_clock::time_point now) 
     return std::chrono::duration<double>(now - phaseStart_).count();
 }
 
-void ProgressPrinter::started(std::size_t position, std::size_t total, const bench::PlannedRun& run, int repetitions,
+void ProgressPrinter::started(std::size_t position, std::size_t total, const suite::PlannedRun& run, int repetitions,
                               double etaSeconds) {
-    const auto text = terminal_ ? bench::progressLine : bench::progressSentence;
+    const auto text = terminal_ ? run::progressLine : run::progressSentence;
     std::cerr << files::printable(text(position, total, run, repetitions, etaSeconds)) << std::endl;
     last_.clear();
     lastShown_ = phaseStart_ = std::chrono::steady_clock::now();
@@ -147,15 +147,15 @@ void ProgressPrinter::progressed(std::string_view line) {
     if (!showsSteps_) return;
     const auto now = std::chrono::steady_clock::now();
     if (!line.empty()) {
-        if (bench::phaseOf(line) != bench::phaseOf(last_)) phaseStart_ = now;
+        if (run::phaseOf(line) != run::phaseOf(last_)) phaseStart_ = now;
         last_ = line;
     }
     if (terminal_ && now - lastShown_ >= barInterval) {
         eraseBar();
-        std::cerr << files::printable(bench::progressBar(last_, terminalWidth(), phaseSeconds(now))) << std::flush;
+        std::cerr << files::printable(run::progressBar(last_, terminalWidth(), phaseSeconds(now))) << std::flush;
     } else if (!terminal_ && now - lastShown_ >= plainInterval) {
         std::cerr << "    "
-                  << (last_.empty() ? "starting" : files::printable(bench::phaseSentence(last_, phaseSeconds(now))))
+                  << (last_.empty() ? "starting" : files::printable(run::phaseSentence(last_, phaseSeconds(now))))
                   << std::endl;
     } else {
         return;
@@ -163,10 +163,10 @@ void ProgressPrinter::progressed(std::string_view line) {
     lastShown_ = now;
 }
 
-void ProgressPrinter::ended(const bench::PlannedRun&, bench::RunStatus status, const std::string& reason) {
+void ProgressPrinter::ended(const suite::PlannedRun&, results::RunStatus status, const std::string& reason) {
     eraseBar();
-    if (status != bench::RunStatus::done)
-        std::cerr << "    " << bench::runStatuses.wordOf(status) << ": " << files::printable(reason) << std::endl;
+    if (status != results::RunStatus::done)
+        std::cerr << "    " << results::runStatuses.wordOf(status) << ": " << files::printable(reason) << std::endl;
 }
 
 void listenForInterruption() {

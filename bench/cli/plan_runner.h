@@ -17,37 +17,37 @@ struct PlanOptions {
     bool retryFailed = false;
     bool redoOutdated = false;
     double timeoutSeconds = 0;
-    bench::ResourceLimits limits{};
+    suite::ResourceLimits limits{};
     double cooldownSeconds = 0;
     bool badInputEnds = false;
-    bench::ForecastByCell forecasts{};
+    run::ForecastByCell forecasts{};
 };
 
 /// Options that execute each run in a process of this program, record the user's command as provenance, and stop on
 /// Ctrl-C.
-[[nodiscard]] bench::ExecutionOptions childExecution();
+[[nodiscard]] run::ExecutionOptions childExecution();
 
 /// Throws InputError if OpenGL or the requested adapter is not available. Call before creating a results folder.
 void requireOpenGl();
 
 /// Starts a run of each remaining configuration and fills in `options.forecasts`. Throws InputError.
-[[nodiscard]] bench::PlanForecast forecastRuns(const std::vector<bench::PlannedRun>& plan,
-                                               bench::ResultsFolder& results, PlanOptions& options);
+[[nodiscard]] run::PlanForecast forecastRuns(const std::vector<suite::PlannedRun>& plan,
+                                             results::ResultsFolder& results, PlanOptions& options);
 
 /// Executes the plan and returns the exit code. Throws InputError.
-[[nodiscard]] int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::ResultsFolder& results,
+[[nodiscard]] int runPlan(const std::vector<suite::PlannedRun>& plan, int repetitions, results::ResultsFolder& results,
                           const PlanOptions& options);
 
 /// Shows the progress of a plan on stderr: a bar on a terminal, plain lines elsewhere.
-class ProgressPrinter : public bench::ExecutionListener {
+class ProgressPrinter : public run::ExecutionListener {
  public:
     /// `showsSteps`: show the progress within a run, if only one runs at a time.
     explicit ProgressPrinter(bool showsSteps = true);
 
-    void started(std::size_t position, std::size_t total, const bench::PlannedRun& run, int repetitions,
+    void started(std::size_t position, std::size_t total, const suite::PlannedRun& run, int repetitions,
                  double etaSeconds) override;
     void progressed(std::string_view line) override;
-    void ended(const bench::PlannedRun& run, bench::RunStatus status, const std::string& reason) override;
+    void ended(const suite::PlannedRun& run, results::RunStatus status, const std::string& reason) override;
     /// Call before printing anything else.
     void eraseBar();
 

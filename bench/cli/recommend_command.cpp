@@ -22,11 +22,11 @@
 namespace dustbench::cli {
 namespace {
 
-using bench::MeasuredSetting;
-using bench::MedianInterval;
-using bench::Metric;
-using bench::Ranking;
-using bench::Recommendation;
+using measure::Metric;
+using recommend::MeasuredSetting;
+using recommend::Ranking;
+using recommend::Recommendation;
+using report::MedianInterval;
 
 // --- The answer as text: for each world its flaws, and the machines and runs that it is based on
 
@@ -47,13 +47,13 @@ std::string decibels(double value) {
     return std::isfinite(value) ? fmt::format("{:.2f}", value) : "identical";
 }
 
-std::string qualityOf(double value, const Metric& metric) {
+std::string qualityOf(double value, const measure::Metric& metric) {
     return metric.unit == "dB" ? decibels(value) : fixed(value, 4);
 }
 
 /// `3.11 ms (2.93 to 5.18, 6 runs)`
-std::string timeText(const MeasuredSetting& setting) {
-    const MedianInterval& ms = setting.ms;
+std::string timeText(const recommend::MeasuredSetting& setting) {
+    const report::MedianInterval& ms = setting.ms;
     const char* const of = setting.timedSeeds > 1 ? "seed" : "run";
     if (ms.values < 2) return fmt::format("{} ms (one run)", milliseconds(ms.median));
     return fmt::format("{} ms ({} to {}, {} {}s)", milliseconds(ms.median), milliseconds(ms.low), milliseconds(ms.high),
@@ -61,8 +61,8 @@ std::string timeText(const MeasuredSetting& setting) {
 }
 
 /// `31.66 dB (one seed)`
-std::string qualityText(const MeasuredSetting& setting, const Metric& metric) {
-    const MedianInterval& quality = setting.quality;
+std::string qualityText(const recommend::MeasuredSetting& setting, const measure::Metric& metric) {
+    const report::MedianInterval& quality = setting.quality;
     const bool hasUnit = !metric.unit.empty() && std::isfinite(quality.median);
     const std::string value = fmt::format("{} {}{}{}", metric.column, qualityOf(quality.median, metric),
                                           hasUnit ? " " : "", hasUnit ? metric.unit : "");
@@ -71,20 +71,20 @@ std::string qualityText(const MeasuredSetting& setting, const Metric& metric) {
                        qualityOf(quality.high, metric), quality.values);
 }
 
-std::string lineOf(const std::string& head, const MeasuredSetting& setting, const Metric& metric) {
+std::string lineOf(const std::string& head, const recommend::MeasuredSetting& setting, const measure::Metric& metric) {
     return fmt::format("  {:<15} {}: {}, {}\n", head, setting.label, timeText(setting), qualityText(setting, metric));
 }
 
-std::string answerText(const Ranking& ranking, const Recommendation& answer, const bench::Rankings& rankings,
-                       const bench::Budget& budget) {
-    const Metric& metric = rankings.quality;
+std::string answerText(const recommend::Ranking& ranking, const recommend::Recommendation& answer,
+                       const recommend::Rankings& rankings, const recommend::Budget& budget) {
+    const measure::Metric& metric = rankings.quality;
     std::string text;
     if (answer.recommended) {
         text += lineOf("recommended", ranking.settings[*answer.recommended], metric);
         for (const std::size_t index : answer.equallyGood)
             text += lineOf("equally good", ranking.settings[index], metric);
     } else {
-        const MeasuredSetting& cheapest = ranking.settings[answer.cheapest];
+        const recommend::MeasuredSetting& cheapest = ranking.settings[answer.cheapest];
         text += fmt::format("  nothing fits {:g} ms; the cheapest is {}: {}, {}\n", budget.ms, cheapest.label,
                             timeText(cheapest), qualityText(cheapest, metric));
     }
@@ -93,11 +93,12 @@ std::string answerText(const Ranking& ranking, const Recommendation& answer, con
     return text;
 }
 
-std::vector<std::string> rowOf(const MeasuredSetting& setting, const Metric& metric, double budgetMs) {
-    const MedianInterval &ms = setting.ms, &quality = setting.quality;
+std::vector<std::string> rowOf(const recommend::MeasuredSetting& setting, const measure::Metric& metric,
+                               double budgetMs) {
+    const report::MedianInterval &ms = setting.ms, &quality = setting.quality;
     const bool isTimedOnce = ms.values < 2, isOneSeed = quality.values < 2;
     return {setting.label,
-            bench::fits(setting, budgetMs) ? "yes" : "no",
+            recommend::fits(setting, budgetMs) ? "yes" : "no",
             milliseconds(ms.median),
             isTimedOnce ? "" : milliseconds(ms.low),
             isTimedOnce ? "" : milliseconds(ms.high),
@@ -109,23 +110,23 @@ std::vector<std::string> rowOf(const MeasuredSetting& setting, const Metric& met
             setting.onFront ? "front" : ""};
 }
 
-std::string settingsTable(const Ranking& ranking, const Metric& metric, double budgetMs) {
+std::string settingsTable(const recommend::Ranking& ranking, const measure::Metric& metric, double budgetMs) {
     std::vector<std::vector<std::string>> rows{
         {"setting", "fits", "ms", "low", "high", "n", std::string(metric.column), "low", "high", "seeds", "pareto"}};
-    for (const MeasuredSetting& setting : ranking.settings) rows.push_back(rowOf(setting, metric, budgetMs));
+    for (const recommend::MeasuredSetting& setting : ranking.settings) rows.push_back(rowOf(setting, metric, budgetMs));
     return textTable(rows);
 }
 
-std::string valueText(const MeasuredSetting& setting, const Metric& metric) {
+std::string valueText(const recommend::MeasuredSetting& setting, const measure::Metric& metric) {
     const auto found = setting.metrics.find(metric.column);
     if (found == setting.metrics.end()) return "-";
-    const MedianInterval& value = found->second;
+    const report::MedianInterval& value = found->second;
     if (value.values < 2) return digitsOf(value.median);
     return fmt::format("{} ({} to {})", digitsOf(value.median), digitsOf(value.low), digitsOf(value.high));
 }
 
 /// The flaws of the recommended setting compared with those of alternatives.
-std::string flawTable(const Ranking& ranking, const Recommendation& answer) {
+std::string flawTable(const recommend::Ranking& ranking, const recommend::Recommendation& answer) {
     std::vector<std::size_t> shown{answer.recommended.value_or(answer.cheapest)};
     constexpr std::size_t mostOthers = 2;
     for (const std::size_t index : answer.equallyGood)
@@ -134,24 +135,24 @@ std::string flawTable(const Ranking& ranking, const Recommendation& answer) {
 
     std::vector<std::vector<std::string>> rows{{"metric", "unit", "perfect"}};
     for (const std::size_t index : shown) rows.front().push_back(ranking.settings[index].label);
-    const auto add = [&](const Metric& metric) {
+    const auto add = [&](const measure::Metric& metric) {
         std::vector<std::string> row{std::string(metric.column), std::string(metric.unit), std::string(metric.perfect)};
         for (const std::size_t index : shown) row.push_back(valueText(ranking.settings[index], metric));
         if (std::any_of(row.begin() + 3, row.end(), [](const std::string& cell) { return cell != "-"; }))
             rows.push_back(std::move(row));
     };
-    std::ranges::for_each(bench::qualityMetrics(), add);
-    std::ranges::for_each(bench::flawMetrics(), add);
+    std::ranges::for_each(recommend::qualityMetrics(), add);
+    std::ranges::for_each(recommend::flawMetrics(), add);
     return textTable(rows);
 }
 
-std::string valueOf(const bench::SettingTexts& fields, std::string_view name) {
+std::string valueOf(const recommend::SettingTexts& fields, std::string_view name) {
     const auto found = fields.find(name);
     return found == fields.end() ? "" : found->second;
 }
 
 /// `measured on: AMD EPYC, 2 cores, llvmpipe (LLVM 15.0.6, 256 bits); commit 30176ec67599`
-std::string machineText(const bench::MachineFacts& machine, const std::string& number) {
+std::string machineText(const recommend::MachineFacts& machine, const std::string& number) {
     if (machine.fields.empty())
         return fmt::format("measured on{}: unknown, because there is no machine.csv next to summary.csv\n", number);
     std::vector<std::string> commits;
@@ -169,7 +170,7 @@ std::string machineText(const bench::MachineFacts& machine, const std::string& n
     return text;
 }
 
-std::string wayOfMeasuring(const Ranking& ranking) {
+std::string wayOfMeasuring(const recommend::Ranking& ranking) {
     return fmt::format(
         "timed with sync={} threads={} over {} frames, compared over {} frames with {}",
         valueOf(ranking.conduct, "sync"), valueOf(ranking.conduct, "threads"), valueOf(ranking.conduct, "frames"),
@@ -177,14 +178,14 @@ std::string wayOfMeasuring(const Ranking& ranking) {
         ranking.reference.empty() || ranking.reference == "exact" ? "the ground truth" : ranking.reference);
 }
 
-std::string rankingText(const Ranking& ranking, const Recommendation& answer, const bench::Rankings& rankings,
-                        const bench::Budget& budget, bool severalMachines) {
+std::string rankingText(const recommend::Ranking& ranking, const recommend::Recommendation& answer,
+                        const recommend::Rankings& rankings, const recommend::Budget& budget, bool severalMachines) {
     std::string text = ranking.label;
     if (severalMachines) text += fmt::format(" (machine {})", ranking.machine + 1);
     text += "\n" + answerText(ranking, answer, rankings, budget) + "\n";
     text += settingsTable(ranking, rankings.quality, budget.ms) + "\n" + flawTable(ranking, answer);
     text += "(" + wayOfMeasuring(ranking) + ")\n";
-    const auto joined = std::ranges::count_if(ranking.settings, &MeasuredSetting::otherRuns);
+    const auto joined = std::ranges::count_if(ranking.settings, &recommend::MeasuredSetting::otherRuns);
     if (joined > 0)
         text += fmt::format("(for {} of {} settings, pictures and times are from different runs)\n", joined,
                             ranking.settings.size());
@@ -192,10 +193,10 @@ std::string rankingText(const Ranking& ranking, const Recommendation& answer, co
 }
 
 /// Explains the intervals and warns of too few values.
-std::string statisticsText(const bench::Rankings& rankings) {
+std::string statisticsText(const recommend::Rankings& rankings) {
     bool hasFewRuns = false, hasFewSeeds = false, hasOneSeed = false;
-    for (const Ranking& ranking : rankings.rankings)
-        for (const MeasuredSetting& setting : ranking.settings) {
+    for (const recommend::Ranking& ranking : rankings.rankings)
+        for (const recommend::MeasuredSetting& setting : ranking.settings) {
             hasFewRuns |= setting.ms.values < enoughValues;
             hasFewSeeds |= setting.quality.values > 1 && setting.quality.values < enoughValues;
             hasOneSeed |= setting.quality.values < 2;
@@ -209,7 +210,7 @@ std::string statisticsText(const bench::Rankings& rankings) {
     return text;
 }
 
-std::string namesOfSettings(const std::vector<const bench::Incomplete*>& settings, std::string_view what) {
+std::string namesOfSettings(const std::vector<const recommend::Incomplete*>& settings, std::string_view what) {
     if (settings.empty()) return "";
     std::string text = fmt::format("{} ({}):\n", what, settings.size());
     for (std::size_t index = 0; index < std::min(settings.size(), namedIncomplete); ++index)
@@ -231,7 +232,7 @@ std::string printableLines(const std::string& text) {
 }
 
 /// How many runs are left out, and why; empty if all are used.
-std::string leftOutText(const bench::MeasuredRuns& runs) {
+std::string leftOutText(const recommend::MeasuredRuns& runs) {
     std::string text;
     if (runs.notDone > 0) text += fmt::format("left out: {} runs that did not complete\n", runs.notDone);
     for (const auto& [why, count] : runs.whyInvalid)
@@ -240,10 +241,10 @@ std::string leftOutText(const bench::MeasuredRuns& runs) {
 }
 
 /// Settings that have a time or a quality but not both, and those that have neither; empty if there are none.
-std::string incompleteText(const bench::Rankings& rankings) {
-    std::vector<const bench::Incomplete*> timed, evaluated, both;
+std::string incompleteText(const recommend::Rankings& rankings) {
+    std::vector<const recommend::Incomplete*> timed, evaluated, both;
     std::size_t neither = 0;
-    for (const bench::Incomplete& setting : rankings.incomplete) {
+    for (const recommend::Incomplete& setting : rankings.incomplete) {
         if (setting.hasTime && setting.hasQuality) both.push_back(&setting);
         if (setting.hasTime && !setting.hasQuality) timed.push_back(&setting);
         if (!setting.hasTime && setting.hasQuality) evaluated.push_back(&setting);
@@ -260,12 +261,13 @@ std::string incompleteText(const bench::Rankings& rankings) {
 }
 
 /// `recommendations` contains one for each ranking, in the same order.
-std::string recommendationText(const bench::Budget& budget, const bench::MeasuredRuns& runs,
-                               const bench::Rankings& rankings, const std::vector<Recommendation>& recommendations) {
+std::string recommendationText(const recommend::Budget& budget, const recommend::MeasuredRuns& runs,
+                               const recommend::Rankings& rankings,
+                               const std::vector<recommend::Recommendation>& recommendations) {
     std::string text = fmt::format(
         "budget: {}, that is {:.4g} ms of each frame for the method alone. A setting fits if the upper end of "
         "the interval of {} is within it.\n",
-        budget.asked, budget.ms, bench::timeColumn);
+        budget.asked, budget.ms, recommend::timeColumn);
     for (std::size_t index = 0; index < rankings.rankings.size(); ++index)
         text += "\n" + rankingText(rankings.rankings[index], recommendations[index], rankings, budget,
                                    runs.machines.size() > 1);
@@ -285,12 +287,12 @@ struct RecommendOptions {
 
 std::string qualityNames() {
     std::vector<std::string_view> names;
-    for (const bench::Metric& metric : bench::qualityMetrics()) names.push_back(metric.column);
+    for (const measure::Metric& metric : recommend::qualityMetrics()) names.push_back(metric.column);
     return fmt::format("{}", fmt::join(names, "|"));
 }
 
-std::vector<bench::Condition> conditionsOf(const RecommendOptions& options) {
-    std::vector<bench::Condition> conditions;
+std::vector<recommend::Condition> conditionsOf(const RecommendOptions& options) {
+    std::vector<recommend::Condition> conditions;
     if (!options.scene.empty()) conditions.push_back({"--scene", "scene", {options.scene}});
     if (!options.light.empty()) conditions.push_back({"--light", "light", {options.light}});
     for (const std::string& text : options.where) {
@@ -298,14 +300,14 @@ std::vector<bench::Condition> conditionsOf(const RecommendOptions& options) {
         if (equals == 0 || equals == std::string::npos)
             throw InputError("--where: got '" + text + "', expected name=value");
         const std::string key = text.substr(0, equals);
-        conditions.push_back({"--where", key, bench::expandValues(key, text.substr(equals + 1))});
+        conditions.push_back({"--where", key, suite::expandValues(key, text.substr(equals + 1))});
     }
     return conditions;
 }
 
-void drawChart(const RecommendOptions& options, const bench::Rankings& rankings, const bench::MeasuredRuns& runs,
-               const bench::Budget& budget) {
-    const std::size_t leftOut = bench::drawRecommendation(rankings, runs, budget, options.chart, "--chart");
+void drawChart(const RecommendOptions& options, const recommend::Rankings& rankings,
+               const recommend::MeasuredRuns& runs, const recommend::Budget& budget) {
+    const std::size_t leftOut = recommend::drawRecommendation(rankings, runs, budget, options.chart, "--chart");
     std::cerr << "note: " << files::printable(options.chart)
               << " written; rings and the line mark the Pareto front, where "
               << "intervals do not overlap\n";
@@ -315,31 +317,31 @@ void drawChart(const RecommendOptions& options, const bench::Rankings& rankings,
 }
 
 /// Prints on stderr why there is nothing to rank.
-int refuse(const bench::MeasuredRuns& runs, const bench::Rankings& rankings) {
+int refuse(const recommend::MeasuredRuns& runs, const recommend::Rankings& rankings) {
     const std::string why = fmt::format(
         "'{}': no setting has both {} and {}; `compare` and suites with `baseline` and `metrics` measure both",
-        runs.from, bench::timeColumn, rankings.quality.column);
+        runs.from, recommend::timeColumn, rankings.quality.column);
     std::cerr << files::printable(why) << "\n" << leftOutText(runs) << incompleteText(rankings);
     return exitNotComparable;
 }
 
 int recommend(const RecommendOptions& options) {
-    const bench::Budget budget = bench::parseBudget("--budget", options.budget);
-    const bench::Metric quality = bench::qualityMetric("--quality", options.quality);
-    bench::MeasuredRuns runs = bench::readMeasuredRuns(options.from);
-    bench::narrow(runs, conditionsOf(options));
-    const bench::Rankings rankings = bench::rankSettings(runs, quality);
+    const recommend::Budget budget = recommend::parseBudget("--budget", options.budget);
+    const measure::Metric quality = recommend::qualityMetric("--quality", options.quality);
+    recommend::MeasuredRuns runs = recommend::readMeasuredRuns(options.from);
+    recommend::narrow(runs, conditionsOf(options));
+    const recommend::Rankings rankings = recommend::rankSettings(runs, quality);
     if (rankings.rankings.empty()) return refuse(runs, rankings);
 
-    std::vector<bench::Recommendation> answers;
+    std::vector<recommend::Recommendation> answers;
     answers.reserve(rankings.rankings.size());
-    for (const bench::Ranking& ranking : rankings.rankings)
-        answers.push_back(bench::recommend(ranking, quality, budget.ms));
+    for (const recommend::Ranking& ranking : rankings.rankings)
+        answers.push_back(recommend::recommend(ranking, quality, budget.ms));
     if (!options.chart.empty()) drawChart(options, rankings, runs, budget);
-    std::cout << (options.json ? bench::recommendationJson(budget, runs, rankings, answers)
+    std::cout << (options.json ? recommend::recommendationJson(budget, runs, rankings, answers)
                                : recommendationText(budget, runs, rankings, answers));
     const bool hasAnswer = std::ranges::any_of(
-        answers, [](const bench::Recommendation& answer) { return answer.recommended.has_value(); });
+        answers, [](const recommend::Recommendation& answer) { return answer.recommended.has_value(); });
     return hasAnswer ? exitOk : exitNothingFits;
 }
 

@@ -32,7 +32,7 @@ namespace {
 
 /// A suspected regression: a column of one configuration, or of all together (null).
 struct Alert {
-    const bench::FolderCell* cell;
+    const suite::FolderCell* cell;
     std::string column;
 };
 
@@ -41,14 +41,14 @@ class SecondLook {
     /// Measures the configurations of `alerts` again with this program, each as often as in B, and compares them with
     /// A. The runs are written to `folder`. Measures nothing if B is from another build or its inputs have changed
     /// (whyNot).
-    SecondLook(const bench::ResultsSide& a, const bench::FolderComparison& first, const std::vector<Alert>& alerts,
+    SecondLook(const suite::ResultsSide& a, const suite::FolderComparison& first, const std::vector<Alert>& alerts,
                double percent, const std::filesystem::path& folder);
 
     /// Empty if it was measured.
     [[nodiscard]] const std::string& whyNot() const { return whyNot_; }
     [[nodiscard]] bool aborted() const { return aborted_; }
     /// The alert's result in the second measurement; null if there is none.
-    [[nodiscard]] const bench::EvaluatedCell* evaluated(const Alert& alert) const;
+    [[nodiscard]] const suite::EvaluatedCell* evaluated(const Alert& alert) const;
     /// True if the second measurement alerts again or could not decide.
     [[nodiscard]] bool confirms(const Alert& alert) const;
 
@@ -56,15 +56,15 @@ class SecondLook {
     double percent_;
     std::string whyNot_;
     bool aborted_ = false;
-    bench::ResultsSide a_, b_;
-    bench::FolderComparison comparison_;
+    suite::ResultsSide a_, b_;
+    suite::FolderComparison comparison_;
 };
 
 /// The configurations to measure: those that alert, or all of them if their mean alerts.
-std::vector<const bench::FolderCell*> cellsOf(const bench::FolderComparison& first, const std::vector<Alert>& alerts) {
+std::vector<const suite::FolderCell*> cellsOf(const suite::FolderComparison& first, const std::vector<Alert>& alerts) {
     const bool ofAll = std::ranges::any_of(alerts, [](const Alert& alert) { return alert.cell == nullptr; });
-    std::vector<const bench::FolderCell*> cells;
-    for (const bench::FolderCell& cell : first.cells) {
+    std::vector<const suite::FolderCell*> cells;
+    for (const suite::FolderCell& cell : first.cells) {
         const bool alerting = std::ranges::any_of(alerts, [&](const Alert& alert) { return alert.cell == &cell; });
         if (!cell.a.done.empty() && !cell.b.done.empty() && (ofAll || alerting)) cells.push_back(&cell);
     }
@@ -72,49 +72,49 @@ std::vector<const bench::FolderCell*> cellsOf(const bench::FolderComparison& fir
 }
 
 /// Plans one repetition of all configurations after the other, as a suite does.
-std::vector<bench::PlannedRun> planOf(const std::vector<const bench::FolderCell*>& cells, int& repetitions) {
-    std::vector<bench::PlannedRun> plan;
+std::vector<suite::PlannedRun> planOf(const std::vector<const suite::FolderCell*>& cells, int& repetitions) {
+    std::vector<suite::PlannedRun> plan;
     repetitions = 0;
-    for (const bench::FolderCell* cell : cells)
+    for (const suite::FolderCell* cell : cells)
         repetitions = std::max(repetitions, static_cast<int>(cell->b.done.size()));
     for (int repetition = 1; repetition <= repetitions; ++repetition)
-        for (const bench::FolderCell* cell : cells)
+        for (const suite::FolderCell* cell : cells)
             if (repetition <= static_cast<int>(cell->b.done.size())) {
-                bench::PlannedRun& run = plan.emplace_back();
-                run.spec = bench::inRepetition(bench::specFromKey(*cell->b.done.front()), repetition);
+                suite::PlannedRun& run = plan.emplace_back();
+                run.spec = suite::inRepetition(results::specFromKey(*cell->b.done.front()), repetition);
             }
     return plan;
 }
 
-SecondLook::SecondLook(const bench::ResultsSide& a, const bench::FolderComparison& first,
+SecondLook::SecondLook(const suite::ResultsSide& a, const suite::FolderComparison& first,
                        const std::vector<Alert>& alerts, double percent, const std::filesystem::path& folder)
     : percent_(percent), a_{a.name, {}} {
-    const std::vector<const bench::FolderCell*> cells = cellsOf(first, alerts);
-    bench::Freshness freshness;
-    for (const bench::FolderCell* cell : cells) {
-        for (const bench::StoredRun* run : cell->b.done)
+    const std::vector<const suite::FolderCell*> cells = cellsOf(first, alerts);
+    results::Freshness freshness;
+    for (const suite::FolderCell* cell : cells) {
+        for (const results::StoredRun* run : cell->b.done)
             if (whyNot_.empty()) whyNot_ = freshness.whyOutdated(*run);
-        for (const bench::StoredRun* run : cell->a.done) a_.runs.emplace(run->runId, *run);
+        for (const results::StoredRun* run : cell->a.done) a_.runs.emplace(run->runId, *run);
     }
     if (cells.empty()) whyNot_ = "no configuration is complete in both folders";
     if (!whyNot_.empty()) return;
 
     int repetitions = 0;
-    const std::vector<bench::PlannedRun> plan = planOf(cells, repetitions);
+    const std::vector<suite::PlannedRun> plan = planOf(cells, repetitions);
     requireOpenGl();
-    bench::ResultsFolder results(folder);
+    results::ResultsFolder results(folder);
     PlanOptions options;
     options.force = true;
     aborted_ = runPlan(plan, repetitions, results, options) == exitAborted;
     b_ = {folder.string(), results.runs()};
     std::set<std::string> columns;
     for (const Alert& alert : alerts) columns.insert(alert.column);
-    comparison_ = bench::compareFolders(a_, b_, {columns.begin(), columns.end()}, false);
+    comparison_ = suite::compareFolders(a_, b_, {columns.begin(), columns.end()}, false);
     if (!comparison_.obstacles.empty()) whyNot_ = comparison_.obstacles.front();
 }
 
-const bench::EvaluatedCell* SecondLook::evaluated(const Alert& alert) const {
-    for (const bench::EvaluatedCell& evaluated : comparison_.evaluated) {
+const suite::EvaluatedCell* SecondLook::evaluated(const Alert& alert) const {
+    for (const suite::EvaluatedCell& evaluated : comparison_.evaluated) {
         const bool isIt = alert.cell == nullptr
                               ? evaluated.cell == nullptr
                               : evaluated.cell != nullptr && evaluated.cell->identity == alert.cell->identity;
@@ -124,15 +124,15 @@ const bench::EvaluatedCell* SecondLook::evaluated(const Alert& alert) const {
 }
 
 bool SecondLook::confirms(const Alert& alert) const {
-    const bench::EvaluatedCell* again = evaluated(alert);
-    return again == nullptr || !again->result.hasEnough() || bench::isSlowerBy(*again, percent_);
+    const suite::EvaluatedCell* again = evaluated(alert);
+    return again == nullptr || !again->result.hasEnough() || suite::isSlowerBy(*again, percent_);
 }
 
 // --- The comparison
 
 std::vector<std::string> parseColumns(const std::string& text) {
     if (text.empty()) return {"frame_ms_median"};
-    const std::vector<std::string> known = bench::comparableColumns();
+    const std::vector<std::string> known = suite::comparableColumns();
     std::vector<std::string> columns;
     std::istringstream words(text + ",");
     for (std::string word; std::getline(words, word, ',');) {
@@ -149,52 +149,53 @@ void writeCsv(const std::string& folder, const std::string& text) {
     std::filesystem::create_directories(folder, error);
     if (error) files::failWriting(folder, error.value());
     const std::filesystem::path file = std::filesystem::path(folder) / "comparison.csv";
-    bench::writeWhole(file, text);
+    exports::writeWhole(file, text);
     std::cout << file.string() << "\n";
 }
 
-std::string takes(const bench::EvaluatedCell& evaluated) {
+std::string takes(const suite::EvaluatedCell& evaluated) {
     return fmt::format("takes {:.4g} [{:.4g}, {:.4g}] times as long in B", evaluated.result.ratio, evaluated.result.low,
                        evaluated.result.high);
 }
 
-std::vector<Alert> alertsOf(const bench::FolderComparison& comparison, double percent) {
+std::vector<Alert> alertsOf(const suite::FolderComparison& comparison, double percent) {
     std::vector<Alert> alerts;
-    for (const bench::EvaluatedCell& evaluated : comparison.evaluated)
-        if (bench::isSlowerBy(evaluated, percent)) alerts.push_back({evaluated.cell, evaluated.column});
+    for (const suite::EvaluatedCell& evaluated : comparison.evaluated)
+        if (suite::isSlowerBy(evaluated, percent)) alerts.push_back({evaluated.cell, evaluated.column});
     return alerts;
 }
 
 /// Prints which alerts are confirmed and which are not; returns the confirmed ones.
-std::vector<Alert> confirmed(const bench::FolderComparison& comparison, const std::vector<Alert>& alerts,
+std::vector<Alert> confirmed(const suite::FolderComparison& comparison, const std::vector<Alert>& alerts,
                              const SecondLook& second) {
     std::vector<Alert> standing;
     for (const Alert& alert : alerts) {
-        const auto first = std::ranges::find_if(comparison.evaluated, [&](const bench::EvaluatedCell& evaluated) {
+        const auto first = std::ranges::find_if(comparison.evaluated, [&](const suite::EvaluatedCell& evaluated) {
             return evaluated.cell == alert.cell && evaluated.column == alert.column;
         });
-        const bench::EvaluatedCell* again = second.whyNot().empty() ? second.evaluated(alert) : nullptr;
+        const suite::EvaluatedCell* again = second.whyNot().empty() ? second.evaluated(alert) : nullptr;
         const bool stands = !second.whyNot().empty() || second.confirms(alert);
         if (stands) standing.push_back(alert);
-        std::cerr << fmt::format("{}: {}: {} {}{}\n", stands ? "regression" : "not confirmed", alert.column,
-                                 alert.cell ? labelOf(*alert.cell, comparison.axes) : "the mean of all configurations",
-                                 takes(*first), again == nullptr ? "" : "; measured again, it " + takes(*again));
+        std::cerr << fmt::format(
+            "{}: {}: {} {}{}\n", stands ? "regression" : "not confirmed", alert.column,
+            alert.cell ? suite::labelOf(*alert.cell, comparison.axes) : "the mean of all configurations", takes(*first),
+            again == nullptr ? "" : "; measured again, it " + takes(*again));
     }
     return standing;
 }
 
-void sayBroken(const bench::FolderComparison& comparison) {
-    for (const bench::FolderCell* cell : comparison.broken)
-        std::cerr << fmt::format("regression: {}: in B {}\n", labelOf(*cell, comparison.axes),
-                                 files::printable(bench::whyBroken(*cell)));
+void sayBroken(const suite::FolderComparison& comparison) {
+    for (const suite::FolderCell* cell : comparison.broken)
+        std::cerr << fmt::format("regression: {}: in B {}\n", suite::labelOf(*cell, comparison.axes),
+                                 files::printable(suite::whyBroken(*cell)));
 }
 
-void writeMarkdown(const RegressionOptions& options, const bench::FolderComparison& comparison,
+void writeMarkdown(const RegressionOptions& options, const suite::FolderComparison& comparison,
                    const std::vector<Alert>& regressions) {
     if (options.markdown.empty()) return;
-    bench::writeWhole(
+    exports::writeWhole(
         options.markdown,
-        bench::comparisonMarkdown(comparison, options.a, options.b, [&](const bench::EvaluatedCell& evaluated) {
+        suite::comparisonMarkdown(comparison, options.a, options.b, [&](const suite::EvaluatedCell& evaluated) {
             return std::ranges::any_of(regressions, [&](const Alert& alert) {
                 return alert.cell == evaluated.cell && alert.column == evaluated.column;
             });
@@ -203,10 +204,10 @@ void writeMarkdown(const RegressionOptions& options, const bench::FolderComparis
 }
 
 /// Measures alerts again; returns the confirmed ones, or nothing if aborted.
-std::optional<std::vector<Alert>> lookAgain(const RegressionOptions& options, const bench::ResultsSide& a,
-                                            const bench::FolderComparison& comparison,
+std::optional<std::vector<Alert>> lookAgain(const RegressionOptions& options, const suite::ResultsSide& a,
+                                            const suite::FolderComparison& comparison,
                                             const std::vector<Alert>& alerts) {
-    const bench::TemporaryFolder temporary;
+    const results::TemporaryFolder temporary;
     const std::filesystem::path folder =
         options.out.empty() ? temporary.path() / "again" : std::filesystem::path(options.out) / "again";
     const SecondLook second(a, comparison, alerts, *options.failPercent, folder);
@@ -230,12 +231,12 @@ void requireTwoFolders(const std::string& a, const std::string& b) {
 int checkRegression(const RegressionOptions& options) {
     const std::vector<std::string> columns = parseColumns(options.columns);
     requireTwoFolders(options.a, options.b);
-    const bench::ResultsSide a{options.a, bench::readStoredRuns(options.a)};
-    const bench::ResultsSide b{options.b, bench::readStoredRuns(options.b)};
-    for (const bench::ResultsSide* side : {&a, &b})
-        if (const std::string said = bench::saysNothingOfOutputs(side->runs); !said.empty())
+    const suite::ResultsSide a{options.a, results::readStoredRuns(options.a)};
+    const suite::ResultsSide b{options.b, results::readStoredRuns(options.b)};
+    for (const suite::ResultsSide* side : {&a, &b})
+        if (const std::string said = results::saysNothingOfOutputs(side->runs); !said.empty())
             std::cerr << fmt::format("warning: '{}': {}\n", files::printable(side->name), said);
-    const bench::FolderComparison comparison = bench::compareFolders(a, b, columns, options.acrossMachines);
+    const suite::FolderComparison comparison = suite::compareFolders(a, b, columns, options.acrossMachines);
     for (const std::string& remark : comparison.remarks) std::cerr << "note: " << files::printable(remark) << "\n";
     for (const std::string& obstacle : comparison.obstacles)
         std::cerr << "not comparable: " << files::printable(obstacle) << "\n";
@@ -244,10 +245,10 @@ int checkRegression(const RegressionOptions& options) {
     std::cout << fmt::format(
         "B = {} against A = {}: ratio of times, 95 % interval over runs that were not interleaved\n", options.b,
         options.a);
-    bench::TextRows table = bench::tabulate(comparison);
+    suite::TextRows table = suite::tabulate(comparison);
     table.rows.insert(table.rows.begin(), std::move(table.header));
     std::cout << textTable(table.rows);
-    if (!options.out.empty()) writeCsv(options.out, bench::comparisonCsv(comparison, options.failPercent));
+    if (!options.out.empty()) writeCsv(options.out, suite::comparisonCsv(comparison, options.failPercent));
     std::vector<Alert> regressions;
     if (options.failPercent)
         if (const std::vector<Alert> alerts = alertsOf(comparison, *options.failPercent); !alerts.empty()) {
@@ -264,7 +265,7 @@ int checkRegression(const RegressionOptions& options) {
                              [](const auto& evaluated) { return evaluated.result.hasEnough(); })) {
         std::cerr << fmt::format(
             "not comparable: no configuration has {} timed runs in both folders, so no regression can be detected\n",
-            bench::minimumTimes);
+            measure::minimumTimes);
         return exitNotComparable;
     }
     return exitOk;

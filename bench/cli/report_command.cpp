@@ -24,9 +24,9 @@
 namespace dustbench::cli {
 namespace {
 
-using bench::MachineComparison;
-using bench::MachineExperiment;
-using bench::PairedRatio;
+using measure::PairedRatio;
+using report::MachineComparison;
+using report::MachineExperiment;
 
 // --- The comparison of several machines as text
 
@@ -46,16 +46,16 @@ std::vector<std::string> heads(std::vector<std::string> first, const std::vector
     return first;
 }
 
-std::vector<std::string> labelsOf(const MachineComparison& comparison) {
+std::vector<std::string> labelsOf(const report::MachineComparison& comparison) {
     std::vector<std::string> labels;
     labels.reserve(comparison.set.sides.size());
-    for (const bench::MachineSide& side : comparison.set.sides) labels.push_back(side.label);
+    for (const report::MachineSide& side : comparison.set.sides) labels.push_back(side.label);
     return labels;
 }
 
-std::string hardwareText(const MachineComparison& comparison) {
+std::string hardwareText(const report::MachineComparison& comparison) {
     std::vector<std::vector<std::string>> rows{heads({""}, labelsOf(comparison))};
-    for (const bench::HardwareRow& row : comparison.hardware) {
+    for (const report::HardwareRow& row : comparison.hardware) {
         rows.push_back({row.name});
         for (const std::string& value : row.values) rows.back().push_back(shortened(value.empty() ? "unknown" : value));
     }
@@ -69,9 +69,9 @@ std::string listOf(const std::string& head, const std::vector<std::string>& sent
     return text;
 }
 
-std::vector<std::string> missingCells(const MachineComparison& comparison) {
+std::vector<std::string> missingCells(const report::MachineComparison& comparison) {
     std::vector<std::string> sentences;
-    for (const bench::MissingCell& missing : comparison.remarks.missing) {
+    for (const report::MissingCell& missing : comparison.remarks.missing) {
         if (sentences.size() == namedCells) {
             sentences.push_back(fmt::format("and {} more", comparison.remarks.missing.size() - namedCells));
             break;
@@ -88,30 +88,30 @@ std::vector<std::string> missingCells(const MachineComparison& comparison) {
 /// Ratios far from 1 have three significant digits.
 std::string digits(double ratio) {
     return std::isfinite(ratio) && (ratio < 0.1 || ratio >= 1e5) ? fmt::format("{:.3g}", ratio)
-                                                                 : bench::fourDigits(ratio);
+                                                                 : suite::fourDigits(ratio);
 }
 
 /// `0.812 [0.79, 0.83] FASTER`
-std::string ratioText(const bench::SideRatio& side, bool invert) {
-    const PairedRatio ratio = invert ? bench::inverted(side.result) : side.result;
+std::string ratioText(const report::SideRatio& side, bool invert) {
+    const measure::PairedRatio ratio = invert ? report::inverted(side.result) : side.result;
     if (ratio.pairs == 0) return side.reason;
     if (ratio.pairs == 1) return fmt::format("{} (one run)", digits(ratio.ratio));
     return fmt::format("{} [{}, {}] {}", digits(ratio.ratio), digits(ratio.low), digits(ratio.high),
-                       verdictName(ratio.verdict));
+                       measure::verdictName(ratio.verdict));
 }
 
-std::string experimentText(const MachineComparison& comparison, const MachineExperiment& experiment) {
+std::string experimentText(const report::MachineComparison& comparison, const report::MachineExperiment& experiment) {
     std::vector<std::vector<std::string>> rows;
-    const auto addRow = [&](const bench::MachineRatio& ratio, const std::string& world, const bench::RatioRow& row) {
+    const auto addRow = [&](const report::MachineRatio& ratio, const std::string& world, const report::RatioRow& row) {
         const bool invert = ratio.of == experiment.reference;
         std::vector<std::string> cells{ratio.column, experiment.variants[invert ? ratio.with : ratio.of].label, world};
-        for (const bench::SideRatio& side : row.sides) cells.push_back(ratioText(side, invert));
-        cells.emplace_back(agreementText(bench::agreementOf(row.sides)));
+        for (const report::SideRatio& side : row.sides) cells.push_back(ratioText(side, invert));
+        cells.emplace_back(report::agreementText(report::agreementOf(row.sides)));
         rows.push_back(std::move(cells));
     };
-    for (const bench::MachineRatio& ratio : experiment.ratios) {
+    for (const report::MachineRatio& ratio : experiment.ratios) {
         if (ratio.of != experiment.reference && ratio.with != experiment.reference) continue;
-        for (const bench::RatioRow& row : ratio.worlds) addRow(ratio, worldLabel(experiment, row.world), row);
+        for (const report::RatioRow& row : ratio.worlds) addRow(ratio, report::worldLabel(experiment, row.world), row);
         if (ratio.worlds.size() > 1) addRow(ratio, fmt::format("all {} in common", ratio.common), ratio.all);
     }
     if (rows.empty())
@@ -123,27 +123,28 @@ std::string experimentText(const MachineComparison& comparison, const MachineExp
                        files::printable(experiment.variants[experiment.reference].label), textTable(rows));
 }
 
-std::string claimsText(const MachineComparison& comparison) {
+std::string claimsText(const report::MachineComparison& comparison) {
     if (comparison.claims.empty()) return "";
     std::vector<std::vector<std::string>> rows{heads({"paper", "id"}, comparison.set.labels, {"machines", "claim"})};
-    for (const bench::SharedClaim& claim : comparison.claims) {
+    for (const report::SharedClaim& claim : comparison.claims) {
         rows.push_back({claim.any().paper, claim.any().claim.id});
-        for (const bench::EvaluatedClaim* evaluated : claim.folders)
-            rows.back().push_back(evaluated ? verdictText(*evaluated) : "–");
-        rows.back().emplace_back(agreementText(claim.agreement));
+        for (const claims::EvaluatedClaim* evaluated : claim.folders)
+            rows.back().push_back(evaluated ? claims::verdictText(*evaluated) : "–");
+        rows.back().emplace_back(report::agreementText(claim.agreement));
         rows.back().push_back(shortened(claim.any().claim.text));
     }
     return "\nclaims\n" + textTable(rows);
 }
 
-std::string machinesText(const MachineComparison& comparison) {
-    const bench::MachineRemarks& remarks = comparison.remarks;
+std::string machinesText(const report::MachineComparison& comparison) {
+    const report::MachineRemarks& remarks = comparison.remarks;
     std::string text = hardwareText(comparison);
     text += listOf("cannot be compared", remarks.apart);
     text += listOf("the programs differ, so ratios may differ for reasons other than the machines", remarks.programs);
     text += listOf("notes", remarks.notes);
     text += listOf("missing configurations", missingCells(comparison));
-    for (const MachineExperiment& experiment : comparison.experiments) text += experimentText(comparison, experiment);
+    for (const report::MachineExperiment& experiment : comparison.experiments)
+        text += experimentText(comparison, experiment);
     return text + claimsText(comparison);
 }
 
@@ -152,7 +153,7 @@ std::string machinesText(const MachineComparison& comparison) {
 struct ReportOptions {
     std::vector<std::string> folders, labels;
     std::string chart, format, out;
-    double pictureMegabytes = static_cast<double>(bench::defaultPictureBytes) / 1e6;
+    double pictureMegabytes = static_cast<double>(report::defaultPictureBytes) / 1e6;
     bool text = false;
     std::vector<std::string> given;  ///< names of options
 };
@@ -170,36 +171,36 @@ void refuseOtherOptions(const ReportOptions& options) {
 }
 
 /// Table of runs that belong to no suite: those of `run` and `compare`, and of controls.
-std::string runsOfNoSuite(const bench::RunGroup& group) {
-    std::vector<bench::MeasuredCell> cells;
-    for (const bench::ReportCell& cell : group.cells) {
-        const std::string world = bench::worldLabel(group, cell);
-        cells.push_back({bench::variantLabel(group, cell) + (world.empty() ? "" : ", " + world), cell.done});
+std::string runsOfNoSuite(const report::RunGroup& group) {
+    std::vector<suite::MeasuredCell> cells;
+    for (const report::ReportCell& cell : group.cells) {
+        const std::string world = report::worldLabel(group, cell);
+        cells.push_back({report::variantLabel(group, cell) + (world.empty() ? "" : ", " + world), cell.done});
     }
     return runsReport(group.title, cells);
 }
 
 /// Prints the tables of `suite` and `reproduce` for all existing runs.
-void printTables(const bench::ReportData& data) {
-    for (const bench::RunGroup& group : data.groups) {
+void printTables(const report::ReportData& data) {
+    for (const report::RunGroup& group : data.groups) {
         if (group.suite.empty()) {
             std::cout << group.id << ": " << runsOfNoSuite(group) << "\n";
             continue;
         }
-        bench::Suite suite = bench::loadSuite(group.suite, group.id != group.suite);
-        for (const bench::ReportCell& cell : group.cells)
+        suite::Suite suite = suite::loadSuite(group.suite, group.id != group.suite);
+        for (const report::ReportCell& cell : group.cells)
             suite.repetitions = std::max(suite.repetitions, static_cast<int>(cell.done.size()));
         std::cout << group.id << ": " << suiteReport(suite, data.runs) << "\n";
     }
     std::cout << claimsReport(data.claims);
-    for (const bench::NotDone& run : data.notDone)
+    for (const report::NotDone& run : data.notDone)
         std::cout << fmt::format("{}: {}: {}\n", run.runId, run.status, files::printable(run.reason));
 }
 
 int reportMachines(const ReportOptions& options) {
-    const bench::MachineComparison comparison =
-        bench::comparisonOf(bench::readMachines({options.folders.begin(), options.folders.end()}, options.labels));
-    const bench::MachineRemarks& remarks = comparison.remarks;
+    const report::MachineComparison comparison =
+        report::comparisonOf(report::readMachines({options.folders.begin(), options.folders.end()}, options.labels));
+    const report::MachineRemarks& remarks = comparison.remarks;
     if (!comparison.isComparable()) {
         for (const std::string& sentence : remarks.notes) std::cerr << "note: " << files::printable(sentence) << "\n";
         for (const std::string& sentence : remarks.apart)
@@ -218,7 +219,7 @@ int reportMachines(const ReportOptions& options) {
                                  remarks.missing.size() == 1
                                      ? std::string("1 configuration was")
                                      : fmt::format("{} configurations were", remarks.missing.size()));
-    std::cout << bench::writeMachinesPage(options.out.empty() ? "out/machines" : options.out, comparison).string()
+    std::cout << report::writeMachinesPage(options.out.empty() ? "out/machines" : options.out, comparison).string()
               << "\n";
     return exitOk;
 }
@@ -231,8 +232,8 @@ int report(const ReportOptions& options) {
         throw InputError("--format: got '" + options.format + "' without --chart, which it requires");
     if (options.text && !options.chart.empty()) throw InputError("--text and --chart: got both, allowed: one of them");
     const bool needsPictures = !options.text && options.chart.empty();
-    const bench::ReportData data =
-        bench::readReport(folder, needsPictures ? static_cast<std::int64_t>(options.pictureMegabytes * 1e6) : 0);
+    const report::ReportData data =
+        report::readReport(folder, needsPictures ? static_cast<std::int64_t>(options.pictureMegabytes * 1e6) : 0);
     for (const std::string& problem : data.problems) std::cerr << "note: " << files::printable(problem) << "\n";
     if (data.runs.empty())
         throw InputError(
@@ -242,11 +243,11 @@ int report(const ReportOptions& options) {
     if (options.text) {
         printTables(data);
     } else if (!options.chart.empty()) {
-        for (const auto& file : bench::writeCharts(data, options.chart, {folder, options.out, options.format}))
+        for (const auto& file : report::writeCharts(data, options.chart, {folder, options.out, options.format}))
             std::cout << file.string() << "\n";
     } else {
-        std::cout << (options.out.empty() ? bench::writePage(folder, data)
-                                          : bench::writePageTo(options.out, folder, data))
+        std::cout << (options.out.empty() ? report::writePage(folder, data)
+                                          : report::writePageTo(options.out, folder, data))
                          .string()
                   << "\n";
     }

@@ -33,14 +33,14 @@ struct ReproduceOptions {
 };
 
 struct SuiteWork {
-    bench::Suite suite;
-    std::vector<bench::PlannedRun> plan;
+    suite::Suite suite;
+    std::vector<suite::PlannedRun> plan;
     PlanOptions options;
 };
 
 struct PaperWork {
-    bench::Paper paper;
-    std::unique_ptr<bench::ResultsFolder> results;
+    suite::Paper paper;
+    std::unique_ptr<results::ResultsFolder> results;
     std::vector<SuiteWork> suites;
     std::size_t published = 0;  ///< number of published points on the paper's charts
     bool quick = false;         ///< reduced suites and experiments
@@ -54,18 +54,18 @@ std::filesystem::path folderOfAll(const ReproduceOptions& options) {
 /// Reads all input files first, so that an error in the last paper is found before the first run.
 std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
     std::vector<PaperWork> work;
-    for (const std::string& id : options.paper.empty() ? bench::listPapers() : std::vector{options.paper}) {
+    for (const std::string& id : options.paper.empty() ? suite::listPapers() : std::vector{options.paper}) {
         PaperWork& paper = work.emplace_back();
-        paper.paper = bench::loadPaper(id);
+        paper.paper = suite::loadPaper(id);
         paper.quick = options.quick;
-        (void)bench::loadClaims(id);
-        for (const auto& [suite, points] : bench::readPublished(id)) paper.published += points.size();
+        (void)claims::loadClaims(id);
+        for (const auto& [suite, points] : report::readPublished(id)) paper.published += points.size();
         std::vector<std::string> suites = paper.paper.suites;
         if (options.controls) std::ranges::copy(paper.paper.controls, std::back_inserter(suites));
         for (const std::string& suite : suites) {
             SuiteWork& each = paper.suites.emplace_back();
-            each.suite = bench::loadSuite(suite, options.quick);
-            each.plan = bench::planRuns(each.suite);
+            each.suite = suite::loadSuite(suite, options.quick);
+            each.plan = suite::planRuns(each.suite);
             checkWorlds(each.plan);
             each.options.timeoutSeconds = each.suite.timeoutSeconds;
             each.options.limits = each.suite.limits;
@@ -76,12 +76,12 @@ std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
 }
 
 void openFolders(const ReproduceOptions& options, std::vector<PaperWork>& work) {
-    if (options.paper.empty()) bench::requireOwnPage(folderOfAll(options));
+    if (options.paper.empty()) report::requireOwnPage(folderOfAll(options));
     for (PaperWork& paper : work) {
         std::filesystem::path out = options.out;
         if (options.out.empty() || options.paper.empty()) out = folderOfAll(options) / paper.paper.id;
-        bench::requireOwnPage(out);
-        paper.results = std::make_unique<bench::ResultsFolder>(out);
+        report::requireOwnPage(out);
+        paper.results = std::make_unique<results::ResultsFolder>(out);
     }
 }
 
@@ -106,47 +106,47 @@ bool sayHowLong(std::vector<PaperWork>& work) {
     double seconds = 0;
     for (PaperWork& paper : work)
         for (SuiteWork& each : paper.suites) {
-            const bench::PlanForecast forecast = forecastRuns(each.plan, *paper.results, each.options);
+            const run::PlanForecast forecast = forecastRuns(each.plan, *paper.results, each.options);
             if (forecast.aborted) return false;
             for (const std::string& warning : forecast.warnings)
                 std::cerr << "warning: " << each.suite.id << ": " << files::printable(warning) << std::endl;
             std::cerr << fmt::format("    {}: {} runs, {}", each.suite.id, forecast.runs,
-                                     bench::durationText(forecast.seconds))
+                                     run::durationText(forecast.seconds))
                       << std::endl;
             runs += forecast.runs;
             seconds += forecast.seconds;
         }
     std::cerr << fmt::format("estimate: {} for {} runs, excluding the papers' experiments that follow",
-                             bench::durationText(seconds), runs)
+                             run::durationText(seconds), runs)
               << std::endl;
     return true;
 }
 
 /// The quantities that experiments could not measure, one line each.
-std::string notMeasured(const std::vector<bench::StoredFinding>& findings) {
+std::string notMeasured(const std::vector<claims::StoredFinding>& findings) {
     std::string lines;
-    for (const bench::StoredFinding& finding : findings)
+    for (const claims::StoredFinding& finding : findings)
         if (!std::isfinite(finding.value))
             lines += fmt::format("\n{}: no {}: {}", finding.experiment, finding.quantity, finding.note);
     return lines.empty() ? lines : lines + "\n";
 }
 
 /// Runs the paper's experiments. They take seconds with --quick, otherwise minutes.
-std::vector<bench::StoredFinding> findingsOf(const PaperWork& work) {
+std::vector<claims::StoredFinding> findingsOf(const PaperWork& work) {
     const std::vector<std::string>& experiments = work.paper.experiments;
     const EndsWhenInterrupted untilTheyEnd;
-    std::vector<bench::StoredFinding> findings;
+    std::vector<claims::StoredFinding> findings;
     for (std::size_t n = 0; n < experiments.size(); ++n) {
         std::cerr << fmt::format("experiment {} of {}: {}", n + 1, experiments.size(), experiments[n]) << std::endl;
-        std::ranges::move(bench::runExperiment(experiments[n], work.quick), std::back_inserter(findings));
+        std::ranges::move(claims::runExperiment(experiments[n], work.quick), std::back_inserter(findings));
     }
     return findings;
 }
 
 /// Runs a paper's suites and experiments, prints tables and verdicts, writes its page and adds its line to `index`.
-int reproducePaper(const PaperWork& work, std::vector<bench::PaperLine>& index) {
-    const bench::Paper& paper = work.paper;
-    bench::ResultsFolder& results = *work.results;
+int reproducePaper(const PaperWork& work, std::vector<report::PaperLine>& index) {
+    const suite::Paper& paper = work.paper;
+    results::ResultsFolder& results = *work.results;
     const std::string year = paper.year != 0 ? fmt::format(" ({})", paper.year) : "";
     std::cout << fmt::format("{}{}: {}\n", paper.authors, year, paper.title);
     int code = exitOk;
@@ -156,20 +156,20 @@ int reproducePaper(const PaperWork& work, std::vector<bench::PaperLine>& index) 
         code = std::max(code, suiteCode);
         std::cout << "\n" << suiteReport(each.suite, results.runs()) << std::flush;
     }
-    const std::vector<bench::StoredFinding> findings = findingsOf(work);
-    if (!findings.empty()) bench::writeWhole(results.path() / "experiments.csv", bench::findingsCsv(findings));
+    const std::vector<claims::StoredFinding> findings = findingsOf(work);
+    if (!findings.empty()) exports::writeWhole(results.path() / "experiments.csv", claims::findingsCsv(findings));
     std::cout << notMeasured(findings);
     const auto summary = files::CsvTable::parseFile(results.path() / "summary.csv");
-    if (const std::string numbers = publishedReport(bench::tabulatePrinted(paper.id, summary)); !numbers.empty())
+    if (const std::string numbers = publishedReport(claims::tabulatePrinted(paper.id, summary)); !numbers.empty())
         std::cout << "\n" << numbers;
-    const auto claims = bench::evaluateClaims(paper.id, summary, findings);
-    bench::writeWhole(results.path() / "claims.csv", bench::claimsCsv(claims));
+    const auto claims = claims::evaluateClaims(paper.id, summary, findings);
+    exports::writeWhole(results.path() / "claims.csv", claims::claimsCsv(claims));
     std::cout << "\n" << claimsReport(claims);
     for (const char* file : {"summary.csv", "experiments.csv", "claims.csv"})
         if (std::filesystem::exists(results.path() / file)) std::cout << (results.path() / file).string() << "\n";
-    const bench::ReportData report = bench::readReport(results.path(), bench::defaultPictureBytes);
-    std::cout << bench::writePage(results.path(), report).string() << "  (open it in a browser)\n";
-    index.push_back(bench::lineOf(report, paper, results.path().filename().string()));
+    const report::ReportData report = report::readReport(results.path(), report::defaultPictureBytes);
+    std::cout << report::writePage(results.path(), report).string() << "  (open it in a browser)\n";
+    index.push_back(report::lineOf(report, paper, results.path().filename().string()));
     return code;
 }
 
@@ -187,14 +187,14 @@ int reproduce(const ReproduceOptions& options) {
         return exitAborted;
     }
     int code = exitOk;
-    std::vector<bench::PaperLine> index;
+    std::vector<report::PaperLine> index;
     for (const PaperWork& paper : work) {
         const int paperCode = reproducePaper(paper, index);
         if (paperCode == exitAborted) return paperCode;
         code = std::max(code, paperCode);
     }
     if (options.paper.empty())
-        std::cout << bench::writePapersPage(folderOfAll(options), index).string() << "  (all papers)\n";
+        std::cout << report::writePapersPage(folderOfAll(options), index).string() << "  (all papers)\n";
     return code;
 }
 

@@ -60,8 +60,8 @@ void writeFilm(const char* option, const fs::path& file, const fs::path& images,
                const std::vector<std::string>& how) {
     if (file.has_parent_path()) fs::create_directories(file.parent_path());
     const fs::path part = partOf(file), log = part.string() + ".log";
-    const std::string rate = fmt::format("{}/{}", std::lround(1 / bench::stepSeconds), every);
-    bench::ChildCommand command;
+    const std::string rate = fmt::format("{}/{}", std::lround(1 / world::stepSeconds), every);
+    run::ChildCommand command;
     command.argv = {findFfmpeg().string(),
                     "-y",
                     "-loglevel",
@@ -75,7 +75,7 @@ void writeFilm(const char* option, const fs::path& file, const fs::path& images,
     command.argv.insert(command.argv.end(), how.begin(), how.end());
     command.argv.push_back(part.string());
     command.log = log;
-    const bench::ChildOutcome outcome = bench::runChild(command);
+    const run::ChildOutcome outcome = run::runChild(command);
     fs::remove(log);
     if (!outcome.succeeded() || !fs::exists(part)) {
         fs::remove(part);
@@ -118,34 +118,34 @@ void writeFilms(const FilmFiles& files, const fs::path& images, std::int64_t eve
 struct RunOptions {
     WorldOptions world;
     VolumeOptions volumes{"--volumes"};
-    std::int64_t frames = bench::RunSpec().frames, images = 0;
+    std::int64_t frames = results::RunSpec().frames, images = 0;
     bool metrics = false, force = false;
     std::string sync = "frame", out;
     FilmFiles films;
 };
 
-bench::RunSpec toSpec(const RunOptions& options) {
-    bench::RunSpec spec = options.world.toSpec();
+results::RunSpec toSpec(const RunOptions& options) {
+    results::RunSpec spec = options.world.toSpec();
     spec.frames = options.frames;
-    spec.sync = bench::syncs.parse("sync", options.sync);
+    spec.sync = results::syncs.parse("sync", options.sync);
     spec.imagesEvery = options.films.wanted() ? std::max<std::int64_t>(options.images, 1) : options.images;
     spec.volumes = options.volumes.over({});
     if (options.metrics) spec.metricPlan.emplace();
-    bench::requireFramesWithinRun(spec);
+    results::requireFramesWithinRun(spec);
     return spec;
 }
 
 /// Prints the median time of every stage and its share of the median frame time.
-void printRun(const bench::PlannedRun& run, const bench::ResultsFolder& results) {
-    const std::string id = bench::runId(run.spec);
-    const bench::StoredRun& stored = results.runs().at(id);
+void printRun(const suite::PlannedRun& run, const results::ResultsFolder& results) {
+    const std::string id = results::runId(run.spec);
+    const results::StoredRun& stored = results.runs().at(id);
     std::cout << results.runFolder(id).string() << (run.label.empty() ? "" : "  " + run.label) << "\n";
-    if (stored.status != bench::RunStatus::done) {
-        std::cout << "  " << bench::runStatuses.wordOf(stored.status) << ": " << files::printable(stored.reason)
+    if (stored.status != results::RunStatus::done) {
+        std::cout << "  " << results::runStatuses.wordOf(stored.status) << ": " << files::printable(stored.reason)
                   << "\n";
         return;
     }
-    const auto number = [&stored](const std::string& name) { return bench::numberIn(stored, name).value_or(NAN); };
+    const auto number = [&stored](const std::string& name) { return suite::numberIn(stored, name).value_or(NAN); };
     const double frameMs = number("frame_ms_median");
     std::vector<std::vector<std::string>> rows{{"  median of", "ms", "share"}};
     rows.push_back({"  frame", fixed(frameMs, 3), "100.0%"});
@@ -155,38 +155,38 @@ void printRun(const bench::PlannedRun& run, const bench::ResultsFolder& results)
     }
     std::cout << textTable(rows)
               << fmt::format("  {:.1f} fps, {}{:.0f} particles, {:.0f} primitives\n", number("fps_avg"),
-                             bench::numberIn(stored, "frame_ms_p95")
+                             suite::numberIn(stored, "frame_ms_p95")
                                  ? fmt::format("95 % of the frames within {:.2f} ms, ", number("frame_ms_p95"))
                                  : "",
                              number("particles_median"), number("primitives_median"));
-    if (const std::string why = bench::whyInvalid(stored); !why.empty())
+    if (const std::string why = results::whyInvalid(stored); !why.empty())
         std::cout << "  invalid: " << files::printable(why) << " (left out of claims, fits and verdicts)\n";
-    if (const std::string said = bench::saysIgnored(stored.ignored); !said.empty())
+    if (const std::string said = measure::saysIgnored(stored.ignored); !said.empty())
         std::cout << "  ignored: " << files::printable(said) << "\n";
     for (const std::string& warning : stored.warnings) std::cout << "  warning: " << files::printable(warning) << "\n";
 }
 
 int performRuns(const RunOptions& options) {
-    const bench::RunSpec spec = toSpec(options);
-    const auto plan = bench::expandParameters(spec, findMethod(spec.method), options.world.parameterLists());
-    for (const bench::PlannedRun& each : plan) bench::requireChangesWithinRun(each.spec);
+    const results::RunSpec spec = toSpec(options);
+    const auto plan = suite::expandParameters(spec, findMethod(spec.method), options.world.parameterLists());
+    for (const suite::PlannedRun& each : plan) results::requireChangesWithinRun(each.spec);
     if (options.films.wanted() && plan.size() > 1)
         throw InputError(fmt::format("{}: got {} runs, allowed: 1 (a film shows one run)",
                                      options.films.video.empty() ? "--gif" : "--video", plan.size()));
     requireFilm(options.films);
     checkWorlds(plan);
     requireOpenGl();
-    bench::ResultsFolder results(options.out);
+    results::ResultsFolder results(options.out);
     PlanOptions planOptions;
     planOptions.force = options.force;
     planOptions.retryFailed = true;
     planOptions.redoOutdated = true;
     planOptions.badInputEnds = true;
     const int code = runPlan(plan, 1, results, planOptions);
-    for (const bench::PlannedRun& each : plan)
-        if (results.runs().contains(bench::runId(each.spec)) && code != exitAborted) printRun(each, results);
-    if (code == exitOk && options.films.wanted() && bench::doneRun(plan.front(), 1, results.runs()))
-        writeFilms(options.films, results.runFolder(bench::runId(plan.front().spec)) / "images", spec.imagesEvery);
+    for (const suite::PlannedRun& each : plan)
+        if (results.runs().contains(results::runId(each.spec)) && code != exitAborted) printRun(each, results);
+    if (code == exitOk && options.films.wanted() && suite::doneRun(plan.front(), 1, results.runs()))
+        writeFilms(options.films, results.runFolder(results::runId(plan.front().spec)) / "images", spec.imagesEvery);
     return code;
 }
 

@@ -45,14 +45,14 @@ class Changes : public Dustbench {
             GTEST_SKIP() << "no method plugin_particles";
     }
     /// The run that these arguments make.
-    bench::StoredRun run(const std::string& arguments) {
+    results::StoredRun run(const std::string& arguments) {
         const std::string out = (folder_ / std::to_string(++count_)).string();
         const Called called =
             call("run --method plugin_particles --frames 12 --warmup 2 --size 32x24 -P preroll=0.2 -P particles=300 " +
                  arguments + " --out " + out);
         EXPECT_EQ(called.code, 0) << called.err;
         kept_ = contentOf(runs(out).at(0) / "systems.toml");
-        return bench::readRunFile(runs(out).at(0) / "run.json");
+        return results::readRunFile(runs(out).at(0) / "run.json");
     }
 
     int count_ = 0;

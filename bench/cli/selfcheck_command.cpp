@@ -24,62 +24,62 @@ namespace dustbench::cli {
 namespace fs = std::filesystem;
 namespace {
 
-using Checks = std::vector<bench::Check>;
+using Checks = std::vector<selfcheck::Check>;
 
 void append(Checks& checks, Checks more) {
     std::ranges::move(more, std::back_inserter(checks));
 }
 
 /// Correctness first: rates of a device that computes wrongly mean nothing, but are measured all the same.
-void checkDevice(bench::Provenance& provenance, Checks& checks) {
+void checkDevice(measure::Provenance& provenance, Checks& checks) {
     gpu::Device device;
     provenance.device = device.info();
-    const auto clock = bench::gpuClock(device.info().renderer);
+    const auto clock = measure::gpuClock(device.info().renderer);
     const auto read = [&] { return clock ? std::optional(clock->read()) : std::nullopt; };
-    bench::GpuClockReadings readings{.before = read()};
-    append(checks, bench::correctnessChecks(device));
-    const bench::DeviceRates rates = bench::measureRates(device, [&] { readings.during = read(); });
+    selfcheck::GpuClockReadings readings{.before = read()};
+    append(checks, selfcheck::correctnessChecks(device));
+    const selfcheck::DeviceRates rates = selfcheck::measureRates(device, [&] { readings.during = read(); });
     device.finish();
     readings.after = read();
-    append(checks, bench::rateChecks(rates, device.isSoftware()));
-    checks.push_back(bench::gpuClockCheck(readings));
+    append(checks, selfcheck::rateChecks(rates, device.isSoftware()));
+    checks.push_back(selfcheck::gpuClockCheck(readings));
 }
 
-void printChecks(const bench::Provenance& provenance, const Checks& checks) {
+void printChecks(const measure::Provenance& provenance, const Checks& checks) {
     std::vector<std::vector<std::string>> rows{{"check", "outcome", "measured", "expected", "note"}};
-    for (const bench::Check& check : checks)
-        rows.push_back({check.name, std::string(bench::outcomes.wordOf(check.outcome)), check.measured, check.expected,
-                        check.note});
+    for (const selfcheck::Check& check : checks)
+        rows.push_back({check.name, std::string(selfcheck::outcomes.wordOf(check.outcome)), check.measured,
+                        check.expected, check.note});
     std::cout << provenance.device.renderer << "\n" << textTable(std::move(rows));
 }
 
 int selfcheck(const std::string& out, bool json) {
     requireOpenGl();
     const fs::path file = files::findData("list of pictures", "selfcheck", "pictures", ".toml");
-    const std::vector<bench::PlannedPicture> planned = bench::readPlannedPictures(file);
-    std::optional<bench::TemporaryFolder> temporary;
+    const std::vector<selfcheck::PlannedPicture> planned = selfcheck::readPlannedPictures(file);
+    std::optional<results::TemporaryFolder> temporary;
     if (out.empty()) temporary.emplace();
     const fs::path drawn = (temporary ? temporary->path() : fs::path(out)) / "pictures";
     std::error_code error;
     fs::create_directories(drawn, error);
     if (error) throw InputError("output '" + out + "' cannot be written: " + error.message());
 
-    bench::Provenance provenance = bench::startProvenance(bench::commandLine());
-    Checks checks = bench::machineChecks(provenance);
+    measure::Provenance provenance = measure::startProvenance(measure::commandLine());
+    Checks checks = selfcheck::machineChecks(provenance);
     std::cerr << "device …" << std::endl;
     checkDevice(provenance, checks);
-    bench::ExecutionOptions execution = childExecution();
+    run::ExecutionOptions execution = childExecution();
     execution.timeoutSeconds = 60;
     execution.simultaneous = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 4u));
     ProgressPrinter progress(execution.simultaneous == 1);
-    append(checks, bench::pictureChecks(planned, file.parent_path(), drawn, execution, progress));
+    append(checks, selfcheck::pictureChecks(planned, file.parent_path(), drawn, execution, progress));
     progress.eraseBar();
-    checks.push_back(bench::throttlingCheck(provenance.machine, bench::readMachine()));
+    checks.push_back(selfcheck::throttlingCheck(provenance.machine, measure::readMachine()));
 
-    const std::string document = bench::selfcheckJson(provenance, checks);
-    if (!out.empty()) bench::writeWhole(fs::path(out) / "selfcheck.json", document);
+    const std::string document = selfcheck::selfcheckJson(provenance, checks);
+    if (!out.empty()) exports::writeWhole(fs::path(out) / "selfcheck.json", document);
     json ? static_cast<void>(std::cout << document) : printChecks(provenance, checks);
-    const auto failed = std::ranges::find(checks, bench::Outcome::failed, &bench::Check::outcome);
+    const auto failed = std::ranges::find(checks, selfcheck::Outcome::failed, &selfcheck::Check::outcome);
     if (failed == checks.end()) return exitOk;
     std::cerr << "dustbench: selfcheck: " << failed->name << ": got " << failed->measured << ", expected "
               << failed->expected << std::endl;

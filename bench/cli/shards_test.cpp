@@ -86,7 +86,7 @@ TEST_F(Shards, AMergeThatIsRefusedLeavesNoFolder) {
 }
 
 TEST_F(Shards, TheScriptForSlurmCountsTheRunsOfTheNullMethod) {
-    if (!bench::findBaseline() || methods().front().id == bench::baselineMethod)
+    if (!results::findBaseline() || methods().front().id == results::baselineMethod)
         GTEST_SKIP() << "no null method here, or no other";
     std::ofstream(folder_ / "timed.toml") << fmt::format(
         "methods = [\"{}\"]\nrepetitions = 2\n[parameters]\nparticles = [50, 100, 150]\n", methods().front().id);

@@ -19,31 +19,31 @@
 
 namespace dustbench::cli {
 
-bench::ParameterLists parseParameters(const std::vector<std::string>& texts) {
-    bench::ParameterLists lists;
+suite::ParameterLists parseParameters(const std::vector<std::string>& texts) {
+    suite::ParameterLists lists;
     for (const std::string& text : texts) {
         const std::size_t equals = text.find('=');
         if (equals == 0 || equals == std::string::npos) throw InputError("-P: got '" + text + "', expected name=value");
         const std::string name = text.substr(0, equals);
-        if (std::ranges::find(lists, name, &bench::ParameterLists::value_type::first) != lists.end())
+        if (std::ranges::find(lists, name, &suite::ParameterLists::value_type::first) != lists.end())
             throw InputError("-P: parameter " + name + " is given twice; for several values, use a list: " + name +
                              "=a,b");
-        lists.emplace_back(name, bench::expandValues(name, text.substr(equals + 1)));
+        lists.emplace_back(name, suite::expandValues(name, text.substr(equals + 1)));
     }
     return lists;
 }
 
-void checkWorlds(const std::vector<bench::PlannedRun>& plan) {
-    std::set<std::tuple<std::string, std::string, bench::ParameterTexts, std::string>> seen;
-    for (const bench::PlannedRun& run : plan) {
-        const auto parameters = bench::resolveParameters(findMethod(run.spec.method), run.spec.parameters);
-        (void)bench::dataFilesOf(parameters.method);
+void checkWorlds(const std::vector<suite::PlannedRun>& plan) {
+    std::set<std::tuple<std::string, std::string, results::ParameterTexts, std::string>> seen;
+    for (const suite::PlannedRun& run : plan) {
+        const auto parameters = results::resolveParameters(findMethod(run.spec.method), run.spec.parameters);
+        (void)results::dataFilesOf(parameters.method);
         const std::string dust = fmt::format("{}\n{}\n{}\n{}", run.spec.dust, run.spec.dustColumns, run.spec.frames,
-                                             bench::dustPlaces.wordOf(run.spec.dustOn));
+                                             results::dustPlaces.wordOf(run.spec.dustOn));
         if (!seen.emplace(run.spec.scene, run.spec.drive, parameters.world.canonical(), dust).second) continue;
-        bench::World loads(run.spec.scene, run.spec.drive, parameters.world, run.spec.seed);
-        loads.useDust(bench::givenDust(run.spec));
-        bench::requireDustPlace(run.spec, loads);
+        world::World loads(run.spec.scene, run.spec.drive, parameters.world, run.spec.seed);
+        loads.useDust(results::givenDust(run.spec));
+        run::requireDustPlace(run.spec, loads);
     }
 }
 
@@ -56,8 +56,8 @@ void WorldOptions::declare(Arguments& arguments) {
                     changes);
 }
 
-bench::ParameterLists WorldOptions::parameterLists() const {
-    bench::ParameterLists lists = parseParameters(parameters);
+suite::ParameterLists WorldOptions::parameterLists() const {
+    suite::ParameterLists lists = parseParameters(parameters);
     if (changes.empty()) return lists;
     const MethodInfo& info = findMethod(method);
     const auto& declared = info.parameters.all();
@@ -100,26 +100,26 @@ void WorldOptions::declareWorld(Arguments& arguments) {
                       1024);
 }
 
-bench::RunSpec WorldOptions::toSpec() const {
+results::RunSpec WorldOptions::toSpec() const {
     const std::string id = findMethod(method).id;
-    bench::RunSpec spec = toWorldSpec();
+    results::RunSpec spec = toWorldSpec();
     spec.method = id;
     return spec;
 }
 
-bench::RunSpec WorldOptions::toWorldSpec() const {
-    bench::RunSpec spec;
+results::RunSpec WorldOptions::toWorldSpec() const {
+    results::RunSpec spec;
     spec.scene = scene;
     spec.drive = drive;
     (void)files::findData("scene", "scenes", spec.scene, ".toml");
     if (!spec.drive.empty()) (void)files::findData("drive", "drives", spec.drive, ".csv");
     spec.cameraPath = cameraPath;
-    if (!cameraPath.empty()) (void)bench::CameraPath::read(cameraPath);
+    if (!cameraPath.empty()) (void)world::CameraPath::read(cameraPath);
     spec.dust = dust;
     spec.dustColumns = dustColumns;
-    spec.dustOn = bench::dustPlaces.parse("--dust-on", dustOn);
+    spec.dustOn = results::dustPlaces.parse("--dust-on", dustOn);
     spec.warmup = warmup;
-    spec.size = bench::parseSize(size);
+    spec.size = results::parseSize(size);
     spec.seed = static_cast<std::uint64_t>(seed);
     spec.threads = static_cast<int>(threads);
     return spec;
@@ -138,33 +138,33 @@ void VolumeOptions::declareOptional(Arguments& arguments) {
 
 void VolumeOptions::declareRest(Arguments& arguments) {
     std::string formats;
-    for (const bench::Exporter& exporter : bench::exporters())
+    for (const exports::Exporter& exporter : exports::exporters())
         formats += fmt::format("{}{} ({})", formats.empty() ? "" : ", ", exporter.id, exporter.kind);
     arguments.text("--format", "NAME,NAME…", "formats of volumes: " + formats + "; default: vti", formats_);
     arguments.text("--resolution", "N", "voxels along the longest edge of a grid, at most 2048; default: 128",
                    resolution_);
     arguments.text("--region", "x0,y0,z0,x1,y1,z1",
                    "box that the grids cover, in metres; default: the extent of each frame's cloud", region_);
-    for (const bench::ExporterOption& option : bench::exporterOptions())
+    for (const exports::ExporterOption& option : exports::exporterOptions())
         arguments.text(option.commandName(), fmt::format("{}", fmt::join(option.words, "|")), option.help,
                        options_[option.id]);
 }
 
-std::optional<bench::VolumeSettings> VolumeOptions::over(const std::optional<bench::VolumeSettings>& base) const {
+std::optional<exports::VolumeSettings> VolumeOptions::over(const std::optional<exports::VolumeSettings>& base) const {
     if (!base && frames_.empty()) {
         std::vector<std::pair<std::string, bool>> all{
             {"--format", !formats_.empty()}, {"--resolution", !resolution_.empty()}, {"--region", !region_.empty()}};
-        for (const bench::ExporterOption& option : bench::exporterOptions())
+        for (const exports::ExporterOption& option : exports::exporterOptions())
             all.emplace_back(option.commandName(), !options_.at(option.id).empty());
         for (const auto& [name, given] : all)
             if (given) throw InputError(name + ": given without " + framesName_ + ", which selects the frames");
         return std::nullopt;
     }
-    bench::VolumeSettings settings = base.value_or(bench::VolumeSettings());
-    if (!frames_.empty()) settings.frames = bench::parseFrameRange(framesName_, frames_);
-    if (!formats_.empty()) settings.formats = bench::parseFormats(formats_);
-    if (!resolution_.empty()) settings.resolution = bench::parseResolution(resolution_);
-    if (!region_.empty()) settings.region = bench::parseRegion(region_);
+    exports::VolumeSettings settings = base.value_or(exports::VolumeSettings());
+    if (!frames_.empty()) settings.frames = exports::parseFrameRange(framesName_, frames_);
+    if (!formats_.empty()) settings.formats = exports::parseFormats(formats_);
+    if (!resolution_.empty()) settings.resolution = exports::parseResolution(resolution_);
+    if (!region_.empty()) settings.region = exports::parseRegion(region_);
     for (const auto& [id, word] : options_)
         if (!word.empty()) settings.setOption(id, word);
     return settings;

@@ -16,19 +16,19 @@
 namespace dustbench::cli {
 
 /// `name=value` of every -P option, in order; values may be lists and ranges. Throws InputError.
-[[nodiscard]] bench::ParameterLists parseParameters(const std::vector<std::string>& texts);
+[[nodiscard]] suite::ParameterLists parseParameters(const std::vector<std::string>& texts);
 
 /// Loads every scene and drive of the plan once and looks up the files that parameters refer to, so that their errors
 /// are reported before the first run. Throws InputError.
-void checkWorlds(const std::vector<bench::PlannedRun>& plan);
+void checkWorlds(const std::vector<suite::PlannedRun>& plan);
 
 /// The options that select a method and a world.
 struct WorldOptions {
     std::string method;
-    std::string scene = bench::RunSpec().scene, drive, cameraPath, dust, dustColumns, dustOn = "auto";
+    std::string scene = results::RunSpec().scene, drive, cameraPath, dust, dustColumns, dustOn = "auto";
     std::vector<std::string> parameters;  ///< values of -P, not yet parsed
     std::vector<std::string> changes;     ///< values of --at
-    std::int64_t warmup = bench::RunSpec().warmup;
+    std::int64_t warmup = results::RunSpec().warmup;
     std::string size = "640x480";
     std::int64_t seed = 1, threads = 0;
 
@@ -36,11 +36,11 @@ struct WorldOptions {
     /// All except the method.
     void declareWorld(Arguments& arguments);
     /// The values of -P and --at. Throws InputError if the method has no settings that can change during a run.
-    [[nodiscard]] bench::ParameterLists parameterLists() const;
+    [[nodiscard]] suite::ParameterLists parameterLists() const;
     /// All except the parameters. Throws InputError for an unknown name.
-    [[nodiscard]] bench::RunSpec toSpec() const;
+    [[nodiscard]] results::RunSpec toSpec() const;
     /// All except the parameters and the method.
-    [[nodiscard]] bench::RunSpec toWorldSpec() const;
+    [[nodiscard]] results::RunSpec toWorldSpec() const;
 };
 
 /// The options of `export`, `run` and `suite` that select volumes.
@@ -53,7 +53,7 @@ class VolumeOptions {
     void declareOptional(Arguments& arguments);
     /// The given options, with `base` as default. Empty: no volumes. Throws InputError, also if another volume option
     /// is given without frames.
-    [[nodiscard]] std::optional<bench::VolumeSettings> over(const std::optional<bench::VolumeSettings>& base) const;
+    [[nodiscard]] std::optional<exports::VolumeSettings> over(const std::optional<exports::VolumeSettings>& base) const;
 
  private:
     void declareRest(Arguments& arguments);

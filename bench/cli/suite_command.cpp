@@ -64,21 +64,21 @@ std::string slurmScript(const SlurmJob& job) {
     const double seconds =
         secondsAroundShard + static_cast<double>(job.maximumRunsOfShard) * (job.timeoutSeconds + around);
     std::string arguments;
-    for (const std::string& word : job.arguments) arguments += " " + bench::shellQuoted(word);
+    for (const std::string& word : job.arguments) arguments += " " + results::shellQuoted(word);
     const std::filesystem::path file = files::dataPath("templates/slurm.sh");
     if (file.empty()) throw InputError("data: the file templates/slurm.sh is missing");
-    return bench::filled(files::wholeText(file, "template"), {{"name", plainName(job.name)},
-                                                              {"shards", std::to_string(job.shards)},
-                                                              {"time", slurmTime(seconds)},
-                                                              {"runs", std::to_string(job.runs)},
-                                                              {"most", std::to_string(job.maximumRunsOfShard)},
-                                                              {"timeout", fmt::format("{:g}", job.timeoutSeconds)},
-                                                              {"around", fmt::format("{:g}", around)},
-                                                              {"extra", fmt::format("{:g}", secondsAroundShard)},
-                                                              {"program", bench::shellQuoted(job.program)},
-                                                              {"folder", bench::shellQuoted(job.folder)},
-                                                              {"out", bench::shellQuoted(job.out)},
-                                                              {"arguments", arguments}});
+    return report::filled(files::wholeText(file, "template"), {{"name", plainName(job.name)},
+                                                               {"shards", std::to_string(job.shards)},
+                                                               {"time", slurmTime(seconds)},
+                                                               {"runs", std::to_string(job.runs)},
+                                                               {"most", std::to_string(job.maximumRunsOfShard)},
+                                                               {"timeout", fmt::format("{:g}", job.timeoutSeconds)},
+                                                               {"around", fmt::format("{:g}", around)},
+                                                               {"extra", fmt::format("{:g}", secondsAroundShard)},
+                                                               {"program", results::shellQuoted(job.program)},
+                                                               {"folder", results::shellQuoted(job.folder)},
+                                                               {"out", results::shellQuoted(job.out)},
+                                                               {"arguments", arguments}});
 }
 
 // --- The command
@@ -93,7 +93,7 @@ struct SuiteOptions {
 };
 
 /// Prints the Slurm script of the suite. Runs and writes nothing.
-int printSlurmScript(const SuiteOptions& options, const bench::Suite& suite, double timeoutSeconds,
+int printSlurmScript(const SuiteOptions& options, const suite::Suite& suite, double timeoutSeconds,
                      double cooldownSeconds) {
     if (!options.shard.empty() || options.dryRun || options.estimate)
         throw InputError(fmt::format("--slurm: cannot be combined with {}",
@@ -103,15 +103,15 @@ int printSlurmScript(const SuiteOptions& options, const bench::Suite& suite, dou
     job.program = std::filesystem::read_symlink("/proc/self/exe");
     job.folder = std::filesystem::current_path();
     job.out = std::filesystem::absolute(options.out).lexically_normal();
-    std::vector<std::string> words = bench::commandLine();
+    std::vector<std::string> words = measure::commandLine();
     words.erase(words.begin());
     job.arguments = withoutOptions(words, {"--out", "--slurm"});
     job.shards = static_cast<int>(options.slurmShards);
     job.timeoutSeconds = timeoutSeconds;
     job.cooldownSeconds = cooldownSeconds;
-    const bench::Suite whole = bench::withBaselines(suite);
+    const suite::Suite whole = suite::withBaselines(suite);
     std::vector<std::size_t> cells(options.slurmShards + 1, 0);
-    for (const int shard : bench::shardOfCells(whole, job.shards)) ++cells[static_cast<std::size_t>(shard)];
+    for (const int shard : suite::shardOfCells(whole, job.shards)) ++cells[static_cast<std::size_t>(shard)];
     const auto repetitions = static_cast<std::size_t>(suite.repetitions);
     job.runs = whole.cells.size() * repetitions;
     job.maximumRunsOfShard = *std::ranges::max_element(cells) * repetitions;
@@ -123,12 +123,12 @@ int printSlurmScript(const SuiteOptions& options, const bench::Suite& suite, dou
 }
 
 int runSuite(const SuiteOptions& options) {
-    bench::Suite suite = bench::loadSuite(options.suite, options.quick);
-    if (!options.order.empty()) suite.order = bench::orders.parse("order", options.order);
+    suite::Suite suite = suite::loadSuite(options.suite, options.quick);
+    if (!options.order.empty()) suite.order = suite::orders.parse("order", options.order);
     if (options.repetitions > 0) suite.repetitions = static_cast<int>(options.repetitions);
-    for (bench::PlannedRun& cell : suite.cells) {
+    for (suite::PlannedRun& cell : suite.cells) {
         cell.spec.volumes = options.volumes.over(cell.spec.volumes);
-        bench::requireFramesWithinRun(cell.spec);
+        results::requireFramesWithinRun(cell.spec);
     }
     const double timeoutSeconds = options.timeoutSeconds > 0 ? options.timeoutSeconds : suite.timeoutSeconds;
     const double cooldownSeconds = options.cooldownSeconds >= 0 ? options.cooldownSeconds : suite.cooldownSeconds;
@@ -136,9 +136,9 @@ int runSuite(const SuiteOptions& options) {
         checkWorlds(suite.cells);
         return printSlurmScript(options, suite, timeoutSeconds, cooldownSeconds);
     }
-    const bench::Shard shard = options.shard.empty() ? bench::Shard() : bench::parseShard(options.shard);
-    const auto plan = bench::planRuns(suite, shard);
-    if (shard.count > 1) suite = bench::partOf(suite, shard);
+    const suite::Shard shard = options.shard.empty() ? suite::Shard() : suite::parseShard(options.shard);
+    const auto plan = suite::planRuns(suite, shard);
+    if (shard.count > 1) suite = suite::partOf(suite, shard);
     if (plan.empty() && shard.count > 1)
         std::cerr << fmt::format("shard {} of {} has no runs: runs of one world stay together\n", options.shard,
                                  suite.id);
@@ -157,7 +157,7 @@ int runSuite(const SuiteOptions& options) {
     }
     checkWorlds(plan);
     if (!plan.empty()) requireOpenGl();
-    bench::ResultsFolder results(options.out);
+    results::ResultsFolder results(options.out);
     if (plan.empty()) results.writeSummary();
     const int code = plan.empty() ? exitOk : runPlan(plan, suite.repetitions, results, planOptions);
     if (code != exitAborted && !plan.empty()) std::cout << suiteReport(suite, results.runs()) << "\n";
@@ -201,7 +201,7 @@ Command suiteCommand() {
                                "run only the I-th of N parts, counted from 1; `dustbench merge` joins their folders",
                                options->shard);
                 arguments.integer("--slurm", "print a Slurm script that runs N shards and merges them",
-                                  options->slurmShards, 0, bench::maximumShards);
+                                  options->slurmShards, 0, suite::maximumShards);
             },
             [options] { return runSuite(*options); }};
 }

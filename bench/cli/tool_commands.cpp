@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t toolSeed = 1;
 
 int runTool(const ToolInfo& tool, const std::vector<ToolArgument>& given) {
-    bench::ProgramContext context(toolSeed);
+    claims::ProgramContext context(toolSeed);
     std::cout << textTable(tool.run(context, given));
     return exitOk;
 }

@@ -40,24 +40,24 @@ struct ViewOptions {
                     what));
 }
 
-bench::HalfState halfOf(const std::string& method, const bench::ParameterLists& given) {
-    if (method == bench::exactPicture) return {method, {}};
-    bench::HalfState half{findMethod(method).id, {}};
+view::HalfState halfOf(const std::string& method, const suite::ParameterLists& given) {
+    if (method == view::exactPicture) return {method, {}};
+    view::HalfState half{findMethod(method).id, {}};
     for (const auto& [name, values] : given)
         if (findMethod(method).parameters.find(name)) half.parameters[name] = values.front();
     return half;
 }
 
-bench::ViewState ofOptions(const ViewOptions& options) {
+view::ViewState ofOptions(const ViewOptions& options) {
     WorldOptions world = options.world;
-    const bool byKeyboard = world.drive == bench::keyboardDrive;
+    const bool byKeyboard = world.drive == view::keyboardDrive;
     if (byKeyboard) world.drive.clear();
-    const bench::RunSpec spec = world.toWorldSpec();
-    if (spec.dustOn == bench::DustOn::gpu)
+    const results::RunSpec spec = world.toWorldSpec();
+    if (spec.dustOn == results::DustOn::gpu)
         throw InputError("--dust-on: got gpu, allowed in the window: cpu|auto (its dust is always on the CPU)");
-    bench::ViewState state;
+    view::ViewState state;
     state.scene = spec.scene;
-    state.drive = byKeyboard ? bench::keyboardDrive : spec.drive;
+    state.drive = byKeyboard ? view::keyboardDrive : spec.drive;
     state.cameraPath = spec.cameraPath;
     state.dust = spec.dust;
     state.dustColumns = spec.dustColumns;
@@ -66,38 +66,38 @@ bench::ViewState ofOptions(const ViewOptions& options) {
     state.threads = spec.threads;
     state.warmup = spec.warmup;
     state.frame = options.frame;
-    const bench::ParameterLists given = parseParameters(world.parameters);
+    const suite::ParameterLists given = parseParameters(world.parameters);
     state.a = halfOf(world.method, given);
     if (!options.with.empty()) state.b = halfOf(options.with, given);
     for (const auto& [name, values] : given) {
         if (values.size() != 1)
             throw InputError(fmt::format("-P: parameter {}: got {} values, expected one", name, values.size()));
         const bool isOfHalf = state.a.parameters.contains(name) || (state.b && state.b->parameters.contains(name));
-        if (!isOfHalf) (void)bench::resolveParameters(findMethod(state.a.method), {{name, values.front()}});
+        if (!isOfHalf) (void)results::resolveParameters(findMethod(state.a.method), {{name, values.front()}});
         if (!isOfHalf) state.world[name] = values.front();
     }
-    return bench::normalised(state);
+    return view::normalised(state);
 }
 
-bench::ViewState ofFile(const std::string& file) {
-    return bench::stateOfToml(files::wholeText(file, "a TOML file"), file);
+view::ViewState ofFile(const std::string& file) {
+    return view::stateOfToml(files::wholeText(file, "a TOML file"), file);
 }
 
-[[maybe_unused]] bench::SplitSettings splitOf(const ViewOptions& options) {
-    bench::SplitSettings split;
-    split.shown = bench::shownChoices.parse("--show", options.show);
-    split.channel = bench::channelChoices.parse("--channel", options.channel);
+[[maybe_unused]] view::SplitSettings splitOf(const ViewOptions& options) {
+    view::SplitSettings split;
+    split.shown = view::shownChoices.parse("--show", options.show);
+    split.channel = view::channelChoices.parse("--channel", options.channel);
     return split;
 }
 
 int view(const ViewOptions& options) {
-    const bench::ViewState state = options.state.empty() ? ofOptions(options) : ofFile(options.state);
+    const view::ViewState state = options.state.empty() ? ofOptions(options) : ofFile(options.state);
     if (!options.picture.empty()) {
 #ifdef DUSTBENCH_PANELS
-        const bench::ImageSize size = bench::parseSize(options.windowSize);
-        const bench::SplitSettings split = splitOf(options);
-        bench::withThreads(state.threads, [&] {
-            const pictures::Image picture = bench::panelPicture(state, split, size.width, size.height);
+        const results::ImageSize size = results::parseSize(options.windowSize);
+        const view::SplitSettings split = splitOf(options);
+        run::withThreads(state.threads, [&] {
+            const pictures::Image picture = view::panelPicture(state, split, size.width, size.height);
             const std::filesystem::path file(options.picture);
             if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
             pictures::writeImage(picture, file);
@@ -108,7 +108,7 @@ int view(const ViewOptions& options) {
 #endif
     }
 #ifdef DUSTBENCH_WINDOW
-    bench::withThreads(state.threads, [&] { bench::showWindow(state, options.out, childExecution()); });
+    run::withThreads(state.threads, [&] { view::showWindow(state, options.out, childExecution()); });
     return exitOk;
 #else
     throw missing("a window");
@@ -117,7 +117,7 @@ int view(const ViewOptions& options) {
 
 std::string keysText() {
     std::string text = "Keys:";
-    for (const bench::KeyBinding& binding : bench::keyBindings())
+    for (const view::KeyBinding& binding : view::keyBindings())
         if (!binding.name.empty()) text += fmt::format("\n  {:<10} {}", binding.name, binding.help);
     return text;
 }

@@ -8,7 +8,7 @@
 #include "methods/contract/volume.h"
 #include "methods/kit/maths/transmittance.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 
 constexpr double paddingDeviations = 4;
@@ -168,4 +168,4 @@ std::optional<Box> CollectedVolume::bounds() const {
     return bounds;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

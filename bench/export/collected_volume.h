@@ -13,7 +13,7 @@
 #include "methods/contract/volume.h"
 #include "methods/kit/particles/particle_store.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 
 struct CollectedPuff {
     glm::vec3 centre;
@@ -117,4 +117,4 @@ class CollectedVolume final : public VolumeVisitor {
     std::vector<CollectedTexture> textures_;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

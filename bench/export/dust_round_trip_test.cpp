@@ -6,11 +6,11 @@
 #include "bench/world/world.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 
 ParameterValues shortPreroll(const std::string& particles) {
-    ParameterValues values(worldParameters());
+    ParameterValues values(world::worldParameters());
     values.set("preroll", "0.3");
     values.set("particles", particles);
     return values;
@@ -20,7 +20,7 @@ TEST(DustRoundTrip, GivesTheSameStateInEveryFrame) {
     constexpr int warmup = 3, frames = 9;
     const TestFolder folder;
     Series series(folder.path() / "particles.pvd", Series::Kind::pvd);
-    World own("plain", "", shortPreroll("400"), 7);
+    world::World own("plain", "", shortPreroll("400"), 7);
     std::vector<std::uint64_t> hashes;
     for (std::int64_t step = own.prerollSteps() + warmup; step > 0; --step) own.step();
     for (int frame = 0; frame < frames; ++frame) {
@@ -32,7 +32,7 @@ TEST(DustRoundTrip, GivesTheSameStateInEveryFrame) {
     }
     ASSERT_GT(own.dust().size(), 20u);
 
-    World given("plain", "", shortPreroll("0"), 8);
+    world::World given("plain", "", shortPreroll("0"), 8);
     given.useDust({series.file().string(), "", warmup, frames});
     for (std::int64_t step = given.prerollSteps() + warmup; step > 0; --step) given.step();
     const std::size_t held = given.dust().size();
@@ -48,7 +48,7 @@ TEST(DustRoundTrip, GivesTheSameStateInEveryFrame) {
 TEST(DustRoundTrip, EndsWhereItsFilesEnd) {
     const TestFolder folder;
     Series series(folder.path() / "particles.pvd", Series::Kind::pvd);
-    World own("plain", "", shortPreroll("400"), 7);
+    world::World own("plain", "", shortPreroll("400"), 7);
     for (int frame = 0; frame < 20; ++frame) own.step();
     for (const char* name : {"a.vtp", "b.vtp"}) {
         own.step();
@@ -56,7 +56,7 @@ TEST(DustRoundTrip, EndsWhereItsFilesEnd) {
         series.add(name, own.state().timeSeconds);
     }
     const std::string file = series.file().string();
-    World two("plain", "", shortPreroll("0"), 7), three("plain", "", shortPreroll("0"), 7),
+    world::World two("plain", "", shortPreroll("0"), 7), three("plain", "", shortPreroll("0"), 7),
         counted("plain", "", shortPreroll("5"), 7);
     EXPECT_NO_THROW(two.useDust({file, "", 0, 2}));
     EXPECT_NE(inputError([&] { three.useDust({file, "", 0, 3}); }).find("allowed: --frames 1..2"), std::string::npos);
@@ -67,4 +67,4 @@ TEST(DustRoundTrip, EndsWhereItsFilesEnd) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

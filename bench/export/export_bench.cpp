@@ -14,7 +14,7 @@
 #include "bench/export/format_writers.h"
 #include "bench/export/test_clouds.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 namespace fs = std::filesystem;
 
@@ -96,4 +96,4 @@ void gridOfPuffs(benchmark::State& state) {
 BENCHMARK(gridOfPuffs)->Args({10'000, 128})->Args({100'000, 128})->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

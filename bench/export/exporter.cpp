@@ -10,7 +10,7 @@
 #include "bench/export/whole_file.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 
 std::string Series::pvdText() const {
     std::string text =
@@ -98,4 +98,4 @@ std::vector<std::filesystem::path> ExportFolder::series() const {
     return files;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

@@ -3,7 +3,7 @@
 //
 // A file NAME_format.cpp of this folder declares one:
 //
-//     namespace dustbench::bench::NAME_format {
+//     namespace dustbench::exports::NAME_format {
 //     Exporter describe() { … }
 //     }
 //
@@ -25,7 +25,7 @@
 #include "methods/contract/scene.h"
 #include "methods/contract/volume.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 
 /// The state of a run at one exported frame.
 struct ExportedMoment {
@@ -129,4 +129,4 @@ struct Exporter {
 /// Throws std::invalid_argument if there is none.
 [[nodiscard]] const ExporterOption& exporterOption(std::string_view id);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

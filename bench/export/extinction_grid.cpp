@@ -11,7 +11,7 @@
 #include "methods/kit/maths/transmittance.h"
 #include "methods/kit/parallel/for_each_block.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 
 constexpr double reachDeviations = 5;
@@ -195,4 +195,4 @@ ExtinctionGrid computeGrid(const CollectedVolume& volume, const GridPlan& plan) 
     return grid;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

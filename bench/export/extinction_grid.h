@@ -14,7 +14,7 @@
 #include "bench/export/collected_volume.h"
 #include "bench/export/volume_settings.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 
 /// Placement of a grid. It has a whole number of cells, so it may extend up to one cell beyond the requested region on
 /// the side of larger coordinates.
@@ -47,4 +47,4 @@ struct ExtinctionGrid {
 /// order in which they were provided.
 [[nodiscard]] ExtinctionGrid computeGrid(const CollectedVolume& volume, const GridPlan& plan);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

@@ -11,7 +11,7 @@
 #include "bench/export/test_clouds.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 
 using testing::HasSubstr;
@@ -208,4 +208,4 @@ TEST(CollectedVolume, RefusesVoxelsOutsideTheTree) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

@@ -13,7 +13,7 @@
 #include "bench/export/vtk_file.h"
 #include "methods/contract/volume.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 
 // --- VTK image data (.vti)
 
@@ -65,4 +65,4 @@ void writeVdb(const ExtinctionGrid& grid, VdbPrecision precision, std::int64_t f
 /// stored as metadata `unit`.
 void writeGridVdb(const CollectedGrid& grid, std::int64_t frame, double timeSeconds, const std::filesystem::path& file);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

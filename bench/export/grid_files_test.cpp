@@ -18,7 +18,7 @@
 #include "methods/kit/testing/test_input_error.h"
 #include "methods/kit/volumes/vector_series.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 
 namespace fs = std::filesystem;
@@ -153,4 +153,4 @@ TEST(VectorSeriesFiles, ThatCannotBeUsedAreRefusedInOneLine) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

@@ -17,7 +17,7 @@
 #include "bench/export/vtk_file.h"
 #include "bench/export/whole_file.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 
 /// Data of a node: from its ancestors on the way down, from its subtree on the way up.
@@ -157,4 +157,4 @@ Exporter describe() {
 
 }  // namespace htg_format
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

@@ -24,7 +24,7 @@
 #include "methods/kit/files/whole_text.h"
 #include "methods/kit/pictures/image.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace fs = std::filesystem;
 namespace {
 
@@ -134,7 +134,7 @@ std::string keepPieces(const fs::path& written, const fs::path& file) {
     std::string text = files::wholeText(written / file.filename(), "a .vtm", files::limits::geometryBytes);
     const std::string stem = file.stem();
     for (const auto& entry : fs::directory_iterator(written / stem)) {
-        const std::string name = sha256OfFile(entry.path()).substr(0, 16) + ".vtp";
+        const std::string name = measure::sha256OfFile(entry.path()).substr(0, 16) + ".vtp";
         if (!fs::exists(folder / name)) fs::rename(entry.path(), folder / name, error);
         if (error) files::failWriting(folder / name, error.value());
         const std::string before = fmt::format("\"{}/{}\"", stem, entry.path().filename().string());
@@ -187,4 +187,4 @@ void writeScene(const scene::Scene& scene, const scene::SceneState& state, const
     writeWhole(file, names);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

@@ -7,7 +7,7 @@
 #include "bench/export/volume_settings.h"
 #include "methods/contract/scene.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 
 /// The part of the ground under the cloud and the vehicle, with a margin. For a flat ground, where size costs nothing,
 /// also the part under the solids.
@@ -21,4 +21,4 @@ namespace dustbench::bench {
 void writeScene(const scene::Scene& scene, const scene::SceneState& state, const Box& ground, double timeSeconds,
                 const std::filesystem::path& file);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

@@ -16,7 +16,7 @@
 
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 namespace fs = std::filesystem;
 
@@ -186,4 +186,4 @@ TEST(SceneFile, AVastGroundIsThinnedOut) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

@@ -15,7 +15,7 @@
 #include "methods/kit/pictures/image.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 
 constexpr double someSeconds = 2.0 + 1.0 / 60;
@@ -129,4 +129,4 @@ TEST(CollectedSurfaces, RefuseColumnsOfAnotherSizeAndNumbersThatAreNone) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

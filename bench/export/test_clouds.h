@@ -12,7 +12,7 @@
 #include "methods/kit/octree/lattice.h"
 #include "methods/kit/particles/particle_store.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 
 /// Owns: a store and the ledger behind it.
 class TestDust {
@@ -113,4 +113,4 @@ struct TestGrid {
     std::vector<float> extinction, scalar, vector;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

@@ -19,7 +19,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/machine_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 
 constexpr float largestHalf = 65504;
@@ -162,4 +162,4 @@ Exporter describe() {
 
 }  // namespace vdb_format
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

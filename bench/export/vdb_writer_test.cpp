@@ -9,7 +9,7 @@
 #include "bench/export/test_clouds.h"
 #include "methods/kit/testing/python_script.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 
 /// Prints name=value lines: metadata, the sum over the voxels, and the sum of each world coordinate times the value.
@@ -109,4 +109,4 @@ TEST(VdbFileOf, WhatHalfFloatsCannotHoldIsRefused) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

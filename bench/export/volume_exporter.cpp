@@ -14,7 +14,7 @@
 #include "methods/kit/files/machine_error.h"
 #include "methods/kit/memory/available_memory.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace fs = std::filesystem;
 
 std::string whyNotWritable(const CollectedVolume& volume, std::string_view format) {
@@ -101,4 +101,4 @@ void VolumeExporter::write(const ExportedMoment& moment) {
     folder_.addTo("scene.pvd", Series::Kind::pvd, name, moment);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

@@ -18,7 +18,7 @@
 
 #include "bench/export/exporter.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 
 /// Why this cloud cannot be written in the format (`provides no octree`); empty if it can.
 [[nodiscard]] std::string whyNotWritable(const CollectedVolume& volume, std::string_view format);
@@ -56,4 +56,4 @@ class VolumeExporter {
     bool gridsDiffer_ = false;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

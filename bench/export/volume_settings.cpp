@@ -12,7 +12,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 
 constexpr std::int64_t maximumFrames = 10'000'000;
@@ -148,4 +148,4 @@ std::vector<std::pair<std::string, std::string>> VolumeSettings::namedOptions() 
     return named;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

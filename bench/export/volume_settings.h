@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 
 /// The frames of a run to export. Never empty: `first` is always included.
 struct FrameRange {
@@ -67,4 +67,4 @@ struct VolumeSettings {
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> namedOptions() const;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

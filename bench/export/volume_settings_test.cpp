@@ -6,7 +6,7 @@
 #include "bench/export/exporter.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 
 using testing::HasSubstr;
@@ -89,4 +89,4 @@ TEST(VolumeSettings, ARegionIsSixFiniteNumbersWithRoomBetween) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

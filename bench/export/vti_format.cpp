@@ -11,7 +11,7 @@
 #include "bench/export/vtk_file.h"
 #include "bench/export/whole_file.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 
 void setPlace(vtkImageData& image, const glm::dvec3& origin, double spacing, const glm::ivec3& cells) {
@@ -90,4 +90,4 @@ Exporter describe() {
 
 }  // namespace vti_format
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

@@ -18,8 +18,7 @@
 #include "bench/measure/provenance.h"
 #include "methods/kit/files/machine_error.h"
 
-namespace dustbench::bench {
-
+namespace dustbench::exports {
 namespace {
 
 void addTexts(vtkDataObject& data, const char* name, std::span<const std::string> texts) {
@@ -72,10 +71,10 @@ void stampTime(vtkDataObject& data, double timeSeconds) {
 void stampOrigin(vtkDataObject& data, const FileOrigin& origin) {
     stampTime(data, origin.timeSeconds);
     if (origin.method.empty()) return;
-    const std::string method(origin.method), version = buildFacts().version;
+    const std::string method(origin.method), version = measure::buildFacts().version;
     addTexts(data, "method", {&method, 1});
     addTexts(data, "configuration", origin.configuration);
     addTexts(data, "dustbench_version", {&version, 1});
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

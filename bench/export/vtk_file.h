@@ -9,7 +9,7 @@
 class vtkDataObject;  // NOLINT(cppcoreguidelines-virtual-class-destructor): VTK's
 class vtkXMLWriter;   // NOLINT(cppcoreguidelines-virtual-class-destructor): VTK's
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 
 /// Where the data is stored: appended after the XML as raw bytes, which is fastest, or inside it as base64.
 enum class Numbers { appended, within };
@@ -39,4 +39,4 @@ void stampTime(vtkDataObject& data, double timeSeconds);
 /// method.
 void stampOrigin(vtkDataObject& data, const FileOrigin& origin);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

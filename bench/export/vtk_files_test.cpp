@@ -25,7 +25,7 @@
 #include "methods/kit/files/whole_text.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 namespace fs = std::filesystem;
 
@@ -282,7 +282,7 @@ void expectOrigin(vtkDataObject& data) {
     };
     EXPECT_EQ(texts("method"), std::vector<std::string>{"octree_search"});
     EXPECT_EQ(texts("configuration"), someSettings);
-    EXPECT_EQ(texts("dustbench_version"), std::vector<std::string>{buildFacts().version});
+    EXPECT_EQ(texts("dustbench_version"), std::vector<std::string>{measure::buildFacts().version});
     vtkDataArray* const time = data.GetFieldData()->GetArray("TimeValue");
     ASSERT_NE(time, nullptr);
     EXPECT_EQ(time->GetTuple1(0), originSeconds);
@@ -310,4 +310,4 @@ TEST(FileOrigin, IsInEveryFormatOfVtk) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

@@ -22,7 +22,7 @@
 #include "methods/contract/volume.h"
 #include "methods/kit/pictures/image.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 
 vtkNew<vtkFloatArray> arrayOf(const std::string& name, int components, std::span<const float> values) {
@@ -221,4 +221,4 @@ Exporter describe() {
 
 }  // namespace vtp_format
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

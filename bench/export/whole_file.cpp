@@ -9,7 +9,7 @@
 
 #include "methods/kit/files/machine_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace fs = std::filesystem;
 namespace {
 
@@ -78,4 +78,4 @@ void removeUnfinished(const fs::path& folder) {
     }
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

@@ -7,7 +7,7 @@
 
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 
 /// Owns: the file or folder under the hidden name. The destructor removes it unless it was published.
 class WholeFile {
@@ -42,4 +42,4 @@ void writeWhole(const std::filesystem::path& file, std::string_view content);
 /// Removes unfinished WholeFiles left in the folder by an interrupted program.
 void removeUnfinished(const std::filesystem::path& folder);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

@@ -13,7 +13,7 @@
 #include "methods/kit/files/machine_error.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::exports {
 namespace {
 namespace fs = std::filesystem;
 
@@ -125,4 +125,4 @@ TEST(WholeFile, AFolderThatIsNotThereIsNamed) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::exports

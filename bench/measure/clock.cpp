@@ -13,7 +13,7 @@
 
 #include "bench/measure/statistics.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 /// Median over several rounds of the nanoseconds per call.
@@ -102,4 +102,4 @@ ClockCost measureClockCost() {
             costNs([&] { const auto timing = clock.measure(Stage::build); })};
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

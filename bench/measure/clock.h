@@ -11,7 +11,7 @@
 
 #include "methods/contract/stage_clock.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 /// Nanoseconds of a steady clock, unaffected by changes to the time of day.
 [[nodiscard]] std::int64_t steadyNow();
@@ -67,4 +67,4 @@ struct ClockCost {
 };
 [[nodiscard]] ClockCost measureClockCost();
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <thread>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 TEST(Clock, OneLookCostsLessThanAStage) {
@@ -131,4 +131,4 @@ TEST(StageRecorder, ForgetsTheLastFrame) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

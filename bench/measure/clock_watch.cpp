@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 /// Idle clocks and clocks that the user has set are not throttling.
@@ -100,4 +100,4 @@ bool saysClockFell(std::string_view warning) {
     return warning.starts_with(prefix);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

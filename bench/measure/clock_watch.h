@@ -12,7 +12,7 @@
 
 #include "bench/measure/nvml.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 struct GpuClockReading {
     unsigned int megahertz = 0;
@@ -66,4 +66,4 @@ class ClockWatch {
 /// Whether a run's warning is one of these.
 [[nodiscard]] bool saysClockFell(std::string_view warning);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

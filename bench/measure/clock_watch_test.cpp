@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 using std::chrono::milliseconds;
@@ -86,4 +86,4 @@ TEST(ClockWatch, KnowsItsWarnings) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -8,7 +8,7 @@
 
 #include "bench/measure/statistics.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 constexpr std::size_t minimumLoads = 4;
@@ -155,4 +155,4 @@ double rankCorrelation(std::span<const CostPoint> points) {
     return norm > 0 ? concordance / norm : 0;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

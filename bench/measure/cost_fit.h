@@ -24,7 +24,7 @@
 #include <span>
 #include <string>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 struct CostPoint {
     double load;  ///< N
@@ -60,4 +60,4 @@ inline constexpr double maximumExponent = 4;
 /// than two points.
 [[nodiscard]] double rankCorrelation(std::span<const CostPoint> points);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -11,7 +11,7 @@
 
 #include "methods/kit/maths/philox.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 constexpr int repetitions = 6;
@@ -128,4 +128,4 @@ TEST(RankCorrelation, CountsTiesForNeitherSide) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

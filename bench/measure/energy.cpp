@@ -10,7 +10,7 @@
 
 #include "bench/measure/nvml.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace fs = std::filesystem;
 namespace {
 
@@ -120,4 +120,4 @@ std::optional<double> EnergyMeter::Stretches::joules() const {
     return counter_ ? std::optional(sum_) : std::nullopt;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 class EnergyCounter {
  public:
@@ -59,4 +59,4 @@ class EnergyMeter {
     Stretches cpu_, gpu_;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

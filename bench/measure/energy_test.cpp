@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 namespace fs = std::filesystem;
 
@@ -98,4 +98,4 @@ TEST(GpuEnergy, IsMissingForOtherRenderersTwoOfANameAndWithoutTheLibrary) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -11,7 +11,7 @@
 
 #include "methods/contract/stage_clock.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 struct FrameRecord {
     std::int64_t frame = 0;  ///< 0 is the first recorded frame
@@ -40,4 +40,4 @@ struct FrameRecord {
     }
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

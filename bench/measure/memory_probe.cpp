@@ -7,7 +7,7 @@
 
 #include "methods/kit/memory/available_memory.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 std::int64_t residentBytes() {
     std::ifstream file("/proc/self/statm");
@@ -24,4 +24,4 @@ std::int64_t peakResidentBytes() {
     return usage.ru_maxrss * 1024;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 /// Current resident set size, in bytes.
 [[nodiscard]] std::int64_t residentBytes();
@@ -11,4 +11,4 @@ namespace dustbench::bench {
 /// Peak resident set size so far, in bytes.
 [[nodiscard]] std::int64_t peakResidentBytes();
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 TEST(MemoryProbe, SeesMemoryThatIsTouchedAndKeepsThePeak) {
     constexpr std::int64_t size = 64 << 20;
@@ -18,4 +18,4 @@ TEST(MemoryProbe, SeesMemoryThatIsTouchedAndKeepsThePeak) {
     EXPECT_GE(peakResidentBytes(), before + size * 9 / 10);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

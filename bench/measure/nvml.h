@@ -8,7 +8,7 @@
 #include <array>
 #include <string>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 inline constexpr const char* nvmlLibrary = "libnvidia-ml.so.1";
 
@@ -92,4 +92,4 @@ class Nvml {
     int (*throttling_)(Device, unsigned long long*) = nullptr;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

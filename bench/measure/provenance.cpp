@@ -26,7 +26,7 @@
 #include "methods/kit/files/printable.h"
 #include "methods/kit/memory/available_memory.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 std::string firstLine(const char* file) {
@@ -265,4 +265,4 @@ std::vector<std::string> commandLine() {
     return words;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -11,7 +11,7 @@
 #include "bench/measure/clock.h"
 #include "methods/kit/gpu/device.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 /// Empty strings and zeros: unknown.
 struct Machine {
@@ -102,4 +102,4 @@ struct Provenance {
 /// The command line of this process.
 [[nodiscard]] std::vector<std::string> commandLine();
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -9,7 +9,7 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 TEST(Provenance, SaysHowAndWhenAndWhere) {
     const Provenance provenance = startProvenance({"dustbench", "run"});
@@ -64,4 +64,4 @@ TEST(Provenance, NamesInputsByTheirContent) {
     EXPECT_EQ(hashInputs({files::dataFolder() / "suites" / "x.toml"})[0].file, "suites/x.toml");
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

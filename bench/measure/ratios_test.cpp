@@ -12,7 +12,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/maths/philox.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 constexpr int pairedExperiments = 2000;
@@ -373,4 +373,4 @@ TEST(RatioOfMeans, TheIntervalHoldsTheTruthAsOftenAsItSays) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -13,7 +13,7 @@
 #include "methods/kit/files/machine_error.h"
 #include "methods/kit/files/whole_text.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 void require(int succeeded) {
@@ -62,4 +62,4 @@ std::string sha256OfFile(const std::filesystem::path& file, std::uintmax_t maxim
     return stream.eof() && bytes <= maximumBytes ? digest.text() : "";
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -11,7 +11,7 @@
 
 struct evp_md_ctx_st;  // OpenSSL's
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 /// A digest of bytes that arrive in parts.
 class Sha256 {
@@ -32,4 +32,4 @@ class Sha256 {
 [[nodiscard]] std::string sha256OfFile(const std::filesystem::path& file,
                                        std::uintmax_t maximumBytes = files::limits::geometryBytes);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 // The vectors are FIPS 180-4's own examples.
 TEST(Sha256, GivesThePublishedDigests) {
@@ -17,4 +17,4 @@ TEST(Sha256, IsEmptyForAFileThatCannotBeRead) {
     EXPECT_EQ(sha256OfFile("/nowhere/at/all"), "");
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

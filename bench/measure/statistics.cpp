@@ -13,7 +13,7 @@
 #include "methods/contract/choices.h"
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
@@ -176,4 +176,4 @@ RatioOfMeans ratioOfMeans(std::span<const std::pair<double, double>> pairs, doub
     return result;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 /// The p-quantile (0 ≤ p ≤ 1), linear between order statistics: x₍ₖ₎ + f·(x₍ₖ₊₁₎ − x₍ₖ₎) with k + f = p·(n − 1), k from
 /// 0 (definition 7 of Hyndman1996).
@@ -123,4 +123,4 @@ struct RatioOfMeans {
 /// `level`: confidence level of the interval, above 0 and below 1.
 [[nodiscard]] RatioOfMeans ratioOfMeans(std::span<const std::pair<double, double>> pairs, double level);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 TEST(Statistics, QuantilesOfARampAreTheRamp) {
     std::vector<double> ramp(101);
@@ -47,4 +47,4 @@ TEST(Statistics, NothingGivesNaN) {
     EXPECT_TRUE(std::isnan(lowFps({})));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -11,7 +11,7 @@
 
 #include "bench/measure/statistics.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 constexpr std::size_t minimumFrames = 30;
@@ -125,4 +125,4 @@ std::vector<std::string> steadinessWarnings(std::span<const double> frameMs) {
     return warnings;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -19,9 +19,9 @@
 #include <string>
 #include <vector>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 /// One sentence per sign; empty for steady times.
 [[nodiscard]] std::vector<std::string> steadinessWarnings(std::span<const double> frameMs);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

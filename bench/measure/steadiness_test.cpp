@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 using testing::AllOf;
@@ -86,4 +86,4 @@ TEST(Steadiness, TakesLongRunsInTime) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

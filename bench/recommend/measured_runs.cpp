@@ -14,7 +14,7 @@
 #include "bench/suite/suite_cells.h"
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::recommend {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,12 +39,12 @@ void readSettings(const CsvTable& table, std::size_t row, MeasuredRun& run) {
         if (!column.starts_with("p.")) continue;
         const std::string name = column.substr(2), &value = table.cell(row, column);
         // Empty: the method has no such parameter, or `at` changes nothing.
-        if (!value.empty()) (isOfTheWorld(name) ? run.world : run.own)[name] = value;
+        if (!value.empty()) (suite::isOfTheWorld(name) ? run.world : run.own)[name] = value;
     }
 }
 
 void readNumbers(const CsvTable& table, std::size_t row, MeasuredRun& run) {
-    for (const std::string& column : numericColumns())
+    for (const std::string& column : results::numericColumns())
         if (const auto value = numberOf(cellOf(table, row, column))) run.numbers[column] = *value;
     // An RMSE but no PSNR: the pictures are identical within the mask, so the PSNR is infinite.
     if (table.hasColumn("psnr_mask_db") && run.numbers.contains("rmse_linear_mask"))
@@ -62,9 +62,9 @@ MeasuredRun runOf(const CsvTable& table, std::size_t row) {
     return run;
 }
 
-std::size_t machineOf(std::vector<MachineFacts>& machines, const StoredRun& run) {
+std::size_t machineOf(std::vector<MachineFacts>& machines, const results::StoredRun& run) {
     MachineFacts machine;
-    for (const std::string_view field : machineFields())
+    for (const std::string_view field : results::machineFields())
         if (const auto found = run.provenance.find(field); found != run.provenance.end())
             machine.fields.emplace(field, found->second);
     auto known = std::ranges::find(machines, machine.fields, &MachineFacts::fields);
@@ -74,12 +74,12 @@ std::size_t machineOf(std::vector<MachineFacts>& machines, const StoredRun& run)
     return static_cast<std::size_t>(known - machines.begin());
 }
 
-void addProvenance(MeasuredRuns& measured, const StoredRuns& stored) {
+void addProvenance(MeasuredRuns& measured, const results::StoredRuns& stored) {
     measured.machines.clear();
     for (MeasuredRun& run : measured.runs) {
-        const StoredRun& from = stored.at(run.runId);
+        const results::StoredRun& from = stored.at(run.runId);
         run.machine = machineOf(measured.machines, from);
-        for (const auto& [name, value] : keyFields(from))
+        for (const auto& [name, value] : results::keyFields(from))
             if (std::ranges::find(worldOfKey, name) != worldOfKey.end() && !value.empty()) run.world[name] = value;
     }
     if (measured.machines.empty()) measured.machines.emplace_back();
@@ -161,7 +161,7 @@ MeasuredRuns measuredRuns(const CsvTable& table, const std::string& from) {
         } else if (const std::string why = cellOf(table, row, "invalid"); !why.empty()) {
             ++measured.invalid;
             ++measured.whyInvalid[why];
-        } else if (table.cell(row, "method") != baselineMethod) {  // which draws nothing
+        } else if (table.cell(row, "method") != results::baselineMethod) {  // which draws nothing
             measured.runs.push_back(runOf(table, row));
         }
     }
@@ -171,9 +171,9 @@ MeasuredRuns measuredRuns(const CsvTable& table, const std::string& from) {
 MeasuredRuns readMeasuredRuns(const fs::path& from) {
     std::error_code error;
     if (fs::is_directory(from / "runs", error)) {
-        const StoredRuns stored = readStoredRuns(from);
-        MeasuredRuns measured =
-            measuredRuns(CsvTable::parseText(summaryCsv(stored), (from / "summary.csv").string()), from.string());
+        const results::StoredRuns stored = results::readStoredRuns(from);
+        MeasuredRuns measured = measuredRuns(
+            CsvTable::parseText(results::summaryCsv(stored), (from / "summary.csv").string()), from.string());
         addProvenance(measured, stored);
         return measured;
     }
@@ -194,4 +194,4 @@ void narrow(MeasuredRuns& runs, const std::vector<Condition>& conditions) {
     for (const Condition& condition : conditions) keepOnly(runs, condition, keys);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::recommend

@@ -16,7 +16,7 @@
 #include "bench/results/stored_run.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::recommend {
 
 using SettingTexts = std::map<std::string, std::string, std::less<>>;
 
@@ -62,4 +62,4 @@ struct Condition {
 /// that no remaining run has.
 void narrow(MeasuredRuns& runs, const std::vector<Condition>& conditions);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::recommend

@@ -13,7 +13,7 @@
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 
-namespace dustbench::bench {
+namespace dustbench::recommend {
 namespace {
 
 using RunList = std::vector<const MeasuredRun*>;
@@ -30,7 +30,7 @@ using SettingKey = std::pair<std::string, SettingTexts>;
 using WorldRuns = std::map<SettingKey, SettingRuns>;
 using WorldKey = std::pair<std::size_t, SettingTexts>;
 
-std::map<WorldKey, WorldRuns> sortRuns(const MeasuredRuns& runs, const Metric& quality) {
+std::map<WorldKey, WorldRuns> sortRuns(const MeasuredRuns& runs, const measure::Metric& quality) {
     std::map<WorldKey, WorldRuns> worlds;
     for (const MeasuredRun& run : runs.runs) {
         SettingRuns& setting = worlds[{run.machine, run.world}][{run.method, run.own}];
@@ -44,9 +44,9 @@ std::map<WorldKey, WorldRuns> sortRuns(const MeasuredRuns& runs, const Metric& q
 /// The mean of two infinities would be no valid median.
 constexpr double replacesInfinity = 1e300;
 
-MedianInterval intervalOf(std::vector<double> values) {
+report::MedianInterval intervalOf(std::vector<double> values) {
     for (double& value : values) value = std::min(value, replacesInfinity);
-    MedianInterval interval = medianInterval(std::move(values));
+    report::MedianInterval interval = report::medianInterval(std::move(values));
     for (double* end : {&interval.median, &interval.low, &interval.high})
         if (*end >= replacesInfinity / 4) *end = identicalDb;
     return interval;
@@ -60,7 +60,7 @@ std::map<std::string, std::vector<double>> valuesBySeed(const RunList& runs, std
     return values;
 }
 
-MedianInterval overSeeds(const std::map<std::string, std::vector<double>>& bySeed) {
+report::MedianInterval overSeeds(const std::map<std::string, std::vector<double>>& bySeed) {
     std::vector<double> medians;
     medians.reserve(bySeed.size());
     for (const auto& [seed, values] : bySeed) medians.push_back(intervalOf(values).median);
@@ -74,12 +74,12 @@ void setTime(MeasuredSetting& setting, const RunList& timed) {
 }
 
 /// Pictures do not depend on the repetition, so values are taken per seed.
-void setMetrics(MeasuredSetting& setting, const RunList& evaluated, const Metric& quality) {
+void setMetrics(MeasuredSetting& setting, const RunList& evaluated, const measure::Metric& quality) {
     const auto add = [&](std::string_view column) {
         if (const auto bySeed = valuesBySeed(evaluated, column); !bySeed.empty())
             setting.metrics.emplace(column, overSeeds(bySeed));
     };
-    for (const Metric& metric : metrics())
+    for (const measure::Metric& metric : measure::metrics())
         if (metric.ranks || metric.isFlaw) add(metric.column);
     add("flip");
     setting.quality = setting.metrics.at(std::string(quality.column));
@@ -105,12 +105,12 @@ std::string commonFrames(const WorldRuns& world, const SettingTexts& conduct, co
     return best == found.end() ? "" : best->first;
 }
 
-bool isAhead(const MeasuredSetting& a, const MeasuredSetting& b, const Metric& quality) {
+bool isAhead(const MeasuredSetting& a, const MeasuredSetting& b, const measure::Metric& quality) {
     if (a.quality.median != b.quality.median) return isBetter(a.quality.median, b.quality.median, quality);
     return std::tie(a.ms.median, a.method, a.own) < std::tie(b.ms.median, b.method, b.own);
 }
 
-void markFront(std::vector<MeasuredSetting>& settings, const Metric& quality) {
+void markFront(std::vector<MeasuredSetting>& settings, const measure::Metric& quality) {
     for (MeasuredSetting& setting : settings)
         setting.onFront = std::ranges::all_of(settings, [&](const MeasuredSetting& other) {
             return &other == &setting || other.ms.low > setting.ms.high ||
@@ -119,7 +119,7 @@ void markFront(std::vector<MeasuredSetting>& settings, const Metric& quality) {
 }
 
 Ranking rankWorld(const WorldKey& key, WorldRuns& world, const SettingTexts& conduct, const std::string& reference,
-                  const Metric& quality) {
+                  const measure::Metric& quality) {
     Ranking ranking{.world = key.second,
                     .conduct = conduct,
                     .evaluatedFrames = commonFrames(world, conduct, reference),
@@ -140,7 +140,7 @@ Ranking rankWorld(const WorldKey& key, WorldRuns& world, const SettingTexts& con
     return ranking;
 }
 
-std::vector<Ranking> rankWorld(const WorldKey& key, WorldRuns& world, const Metric& quality) {
+std::vector<Ranking> rankWorld(const WorldKey& key, WorldRuns& world, const measure::Metric& quality) {
     std::set<SettingTexts> conducts;
     std::set<std::string> references;
     for (const auto& [settingKey, runs] : world) {
@@ -196,7 +196,7 @@ std::string worldLabel(const SettingTexts& world, const std::set<std::string>& v
         words.push_back(fmt::format("{}={}", first, world.at(first)));
         rest.erase(first);
     }
-    std::ranges::move(distinctSettings(rest, varies, &worldParameters()), std::back_inserter(words));
+    std::ranges::move(distinctSettings(rest, varies, &world::worldParameters()), std::back_inserter(words));
     return fmt::format("{}", fmt::join(words, " "));
 }
 
@@ -228,37 +228,37 @@ bool isBefore(const SettingTexts& a, const SettingTexts& b) {
 
 }  // namespace
 
-std::vector<Metric> qualityMetrics() {
-    std::vector<Metric> list = metrics();
-    std::erase_if(list, [](const Metric& metric) { return !metric.ranks; });
-    std::ranges::stable_sort(list, std::greater(), &Metric::higherIsBetter);  // PSNR, the default, comes first
+std::vector<measure::Metric> qualityMetrics() {
+    std::vector<measure::Metric> list = measure::metrics();
+    std::erase_if(list, [](const measure::Metric& metric) { return !metric.ranks; });
+    std::ranges::stable_sort(list, std::greater(), &measure::Metric::higherIsBetter);  // PSNR, the default, comes first
     return list;
 }
 
-std::vector<Metric> flawMetrics() {
-    std::vector<Metric> list = metrics();
-    std::erase_if(list, [](const Metric& metric) { return !metric.isFlaw; });
+std::vector<measure::Metric> flawMetrics() {
+    std::vector<measure::Metric> list = measure::metrics();
+    std::erase_if(list, [](const measure::Metric& metric) { return !metric.isFlaw; });
     return list;
 }
 
-Metric qualityMetric(const std::string& what, const std::string& column) {
+measure::Metric qualityMetric(const std::string& what, const std::string& column) {
     std::vector<std::string_view> names;
-    for (const Metric& metric : qualityMetrics()) {
+    for (const measure::Metric& metric : qualityMetrics()) {
         if (metric.column == column) return metric;
         names.push_back(metric.column);
     }
     throw InputError(fmt::format("{}: got '{}', allowed: {}", what, column, fmt::join(names, ", ")));
 }
 
-bool isBetter(double a, double b, const Metric& metric) {
+bool isBetter(double a, double b, const measure::Metric& metric) {
     return metric.higherIsBetter ? a > b : a < b;
 }
 
-bool isClearlyBetter(const MedianInterval& a, const MedianInterval& b, const Metric& metric) {
+bool isClearlyBetter(const report::MedianInterval& a, const report::MedianInterval& b, const measure::Metric& metric) {
     return metric.higherIsBetter ? a.low > b.high : a.high < b.low;
 }
 
-Rankings rankSettings(const MeasuredRuns& runs, const Metric& quality) {
+Rankings rankSettings(const MeasuredRuns& runs, const measure::Metric& quality) {
     Rankings result{.quality = quality, .rankings = {}, .incomplete = {}};
     auto worlds = sortRuns(runs, quality);
     for (auto& [key, world] : worlds)
@@ -273,4 +273,4 @@ Rankings rankSettings(const MeasuredRuns& runs, const Metric& quality) {
     return result;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::recommend

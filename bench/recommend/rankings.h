@@ -14,28 +14,28 @@
 #include "bench/recommend/measured_runs.h"
 #include "bench/report/median_interval.h"
 
-namespace dustbench::bench {
+namespace dustbench::recommend {
 
 /// The column of a method's own time.
 inline constexpr std::string_view timeColumn = "method_ms_median";
 
 /// The metrics that can rank pictures, and those that measure flaws.
-[[nodiscard]] std::vector<Metric> qualityMetrics();
-[[nodiscard]] std::vector<Metric> flawMetrics();
+[[nodiscard]] std::vector<measure::Metric> qualityMetrics();
+[[nodiscard]] std::vector<measure::Metric> flawMetrics();
 /// Throws InputError that begins with `what`.
-[[nodiscard]] Metric qualityMetric(const std::string& what, const std::string& column);
+[[nodiscard]] measure::Metric qualityMetric(const std::string& what, const std::string& column);
 
 /// One method with one set of parameters.
 struct MeasuredSetting {
     std::string method;
     SettingTexts own;
-    std::string label{};  ///< `billboard soft=on`: parameters other than the defaults, and those that vary
-    MedianInterval ms{};  ///< the method's own time
+    std::string label{};          ///< `billboard soft=on`: parameters other than the defaults, and those that vary
+    report::MedianInterval ms{};  ///< the method's own time
     std::size_t timedSeeds = 1;
-    MedianInterval quality{};                                      ///< `values`: the number of seeds
-    std::map<std::string, MedianInterval, std::less<>> metrics{};  ///< by column, if measured
-    bool otherRuns = false;                                        ///< some of its metrics are from runs without a time
-    bool onFront = false;  ///< every other setting costs more or has worse quality, by intervals without overlap
+    report::MedianInterval quality{};                                      ///< `values`: the number of seeds
+    std::map<std::string, report::MedianInterval, std::less<>> metrics{};  ///< by column, if measured
+    bool otherRuns = false;  ///< some of its metrics are from runs without a time
+    bool onFront = false;    ///< every other setting costs more or has worse quality, by intervals without overlap
 };
 
 struct Ranking {
@@ -54,15 +54,16 @@ struct Incomplete {
 };
 
 struct Rankings {
-    Metric quality;
+    measure::Metric quality;
     std::vector<Ranking> rankings;  ///< each with one setting or more
     std::vector<Incomplete> incomplete;
 };
 
-[[nodiscard]] Rankings rankSettings(const MeasuredRuns& runs, const Metric& quality);
+[[nodiscard]] Rankings rankSettings(const MeasuredRuns& runs, const measure::Metric& quality);
 
 /// True if every value in the interval of `a` is better than every value in that of `b`.
-[[nodiscard]] bool isClearlyBetter(const MedianInterval& a, const MedianInterval& b, const Metric& metric);
-[[nodiscard]] bool isBetter(double a, double b, const Metric& metric);
+[[nodiscard]] bool isClearlyBetter(const report::MedianInterval& a, const report::MedianInterval& b,
+                                   const measure::Metric& metric);
+[[nodiscard]] bool isBetter(double a, double b, const measure::Metric& metric);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::recommend

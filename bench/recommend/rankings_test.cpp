@@ -6,7 +6,7 @@
 #include "bench/recommend/test_table.h"
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::recommend {
 namespace {
 
 using testing::AllOf;
@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-const Metric psnrMetric = qualityMetric("", "psnr_mask_db");
+const measure::Metric psnrMetric = qualityMetric("", "psnr_mask_db");
 
 Rankings rankOf(const std::vector<TestRow>& rows) {
     return rankSettings(runsOf(rows), psnrMetric);
@@ -102,7 +102,7 @@ TEST(Rankings, TakeTheMedianOverSeedsOfTheMediansOverRepetitions) {
                             .seed = seed,
                             .repetition = repetition});
     const Rankings rankings = rankOf(rows);
-    const MedianInterval& ms = rankings.rankings.at(0).settings.at(0).ms;
+    const report::MedianInterval& ms = rankings.rankings.at(0).settings.at(0).ms;
     EXPECT_EQ(ms.median, 22);
     EXPECT_EQ(ms.low, 12);
     EXPECT_EQ(ms.high, 32);
@@ -181,4 +181,4 @@ TEST(MeasuredRuns, AreNoneOfATableOfSomethingElse) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::recommend

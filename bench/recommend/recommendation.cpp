@@ -7,7 +7,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::recommend {
 namespace {
 
 constexpr double maximumMs = 1e6;
@@ -18,7 +18,7 @@ std::string trimmed(const std::string& text) {
     return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
-bool overlap(const MedianInterval& a, const MedianInterval& b) {
+bool overlap(const report::MedianInterval& a, const report::MedianInterval& b) {
     return a.low <= b.high && b.low <= a.high;
 }
 
@@ -40,7 +40,7 @@ bool fits(const MeasuredSetting& setting, double budgetMs) {
     return setting.ms.high <= budgetMs;
 }
 
-Recommendation recommend(const Ranking& ranking, const Metric& quality, double budgetMs) {
+Recommendation recommend(const Ranking& ranking, const measure::Metric& quality, double budgetMs) {
     const std::vector<MeasuredSetting>& settings = ranking.settings;
     Recommendation result;
     std::vector<std::size_t> good;
@@ -64,4 +64,4 @@ Recommendation recommend(const Ranking& ranking, const Metric& quality, double b
     return result;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::recommend

@@ -11,7 +11,7 @@
 
 #include "bench/recommend/rankings.h"
 
-namespace dustbench::bench {
+namespace dustbench::recommend {
 
 /// The time that a method may add to a frame.
 struct Budget {
@@ -35,6 +35,6 @@ struct Recommendation {
 [[nodiscard]] bool fits(const MeasuredSetting& setting, double budgetMs);
 
 /// `ranking` must have at least one setting.
-[[nodiscard]] Recommendation recommend(const Ranking& ranking, const Metric& quality, double budgetMs);
+[[nodiscard]] Recommendation recommend(const Ranking& ranking, const measure::Metric& quality, double budgetMs);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::recommend

@@ -11,7 +11,7 @@
 #include "bench/report/run_groups.h"
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::recommend {
 namespace {
 
 using nlohmann::ordered_json;
@@ -20,7 +20,7 @@ ordered_json number(double value) {
     return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
-ordered_json intervalJson(const MedianInterval& interval) {
+ordered_json intervalJson(const report::MedianInterval& interval) {
     return {{"median", number(interval.median)},
             {"low", number(interval.low)},
             {"high", number(interval.high)},
@@ -83,8 +83,8 @@ namespace {
 constexpr const char* groupId = "recommend";
 
 /// A run that represents a setting in one world, from which the report finds the settings that vary.
-StoredRun standIn(const Ranking& ranking, const MeasuredSetting& setting, std::size_t index) {
-    StoredRun run;
+results::StoredRun standIn(const Ranking& ranking, const MeasuredSetting& setting, std::size_t index) {
+    results::StoredRun run;
     run.runId = fmt::format("{:06}", index);
     run.cells = {{"method", setting.method}};
     for (const SettingTexts* settings : {&ranking.world, &ranking.conduct})
@@ -110,10 +110,10 @@ struct Drawn {
 };
 
 /// Adds a property in which rankings differ and which is not a setting of the world, as an axis of worlds.
-void addWorldAxis(RunGroup& group, const std::string& name, const std::vector<std::string>& valueOfCell) {
+void addWorldAxis(report::RunGroup& group, const std::string& name, const std::vector<std::string>& valueOfCell) {
     const std::set<std::string> values(valueOfCell.begin(), valueOfCell.end());
     if (values.size() < 2) return;
-    ReportAxis axis;
+    report::ReportAxis axis;
     axis.name = name;
     axis.world = true;
     axis.values.assign(values.begin(), values.end());
@@ -121,9 +121,9 @@ void addWorldAxis(RunGroup& group, const std::string& name, const std::vector<st
     for (std::size_t cell = 0; cell < group.cells.size(); ++cell) group.cells[cell].settings[name] = valueOfCell[cell];
 }
 
-void fillCells(RunGroup& group, const std::vector<Drawn>& drawn, const Metric& quality) {
+void fillCells(report::RunGroup& group, const std::vector<Drawn>& drawn, const measure::Metric& quality) {
     std::vector<std::string> references, machines, lengths;
-    for (ReportCell& cell : group.cells) {
+    for (report::ReportCell& cell : group.cells) {
         const auto& [ranking, setting] = drawn[std::stoul(cell.done.front()->runId)];
         cell.values = {{std::string(timeColumn), setting->ms}, {std::string(quality.column), setting->quality}};
         // The report only draws charts of quality for runs with this column.
@@ -142,32 +142,32 @@ void fillCells(RunGroup& group, const std::vector<Drawn>& drawn, const Metric& q
 std::size_t drawRecommendation(const Rankings& rankings, const MeasuredRuns& runs, const Budget& budget,
                                const std::filesystem::path& file, const std::string& what) {
     std::vector<Drawn> drawn;
-    ReportData data;
+    report::ReportData data;
     std::size_t leftOut = 0;
     for (const Ranking& ranking : rankings.rankings)
         for (const MeasuredSetting& setting : ranking.settings) {
             leftOut += isDrawn(setting) ? 0 : 1;
             if (!isDrawn(setting)) continue;
-            StoredRun run = standIn(ranking, setting, drawn.size());
+            results::StoredRun run = standIn(ranking, setting, drawn.size());
             data.runs.emplace(run.runId, std::move(run));
             drawn.push_back({&ranking, &setting});
         }
     if (drawn.empty()) throw InputError(what + ": no setting has both a time and a quality that a chart can show");
-    std::vector<const StoredRun*> standIns;
-    MachineOfRun machineOfRun;
+    std::vector<const results::StoredRun*> standIns;
+    report::MachineOfRun machineOfRun;
     for (const auto& [id, run] : data.runs) {
         standIns.push_back(&run);
         machineOfRun[id] = drawn[std::stoul(id)].ranking->machine;
     }
-    RunGroup group = makeGroup(standIns, machineOfRun);
+    report::RunGroup group = report::makeGroup(standIns, machineOfRun);
     group.id = groupId;
     group.chart.column = rankings.quality.column;
     group.budgetMs = budget.ms;
     fillCells(group, drawn, rankings.quality);
     data.groups.push_back(std::move(group));
     for (const MachineFacts& machine : runs.machines) data.machines.push_back(machine.fields);
-    drawChart(data, std::string(groupId) + "-quality", file, what);
+    report::drawChart(data, std::string(groupId) + "-quality", file, what);
     return leftOut;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::recommend

@@ -9,7 +9,7 @@
 #include "bench/recommend/rankings.h"
 #include "bench/recommend/recommendation.h"
 
-namespace dustbench::bench {
+namespace dustbench::recommend {
 
 /// One object with a recommendation for each ranking, in their order. A quality that is not finite, because the picture
 /// equals the reference, is null.
@@ -22,4 +22,4 @@ namespace dustbench::bench {
 std::size_t drawRecommendation(const Rankings& rankings, const MeasuredRuns& runs, const Budget& budget,
                                const std::filesystem::path& file, const std::string& what);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::recommend

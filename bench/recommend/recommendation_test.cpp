@@ -11,7 +11,7 @@
 #include "methods/contract/errors.h"
 #include "source_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::recommend {
 namespace {
 
 TEST(Budget, IsATimeWithItsUnit) {
@@ -38,7 +38,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
 
-const Metric psnr = qualityMetric("", "psnr_mask_db");
+const measure::Metric psnr = qualityMetric("", "psnr_mask_db");
 
 Rankings rank(const std::vector<TestRow>& rows) {
     return rankSettings(runsOf(rows), psnr);
@@ -110,7 +110,7 @@ TEST(Recommendation, IsByTheLowestFlipIfAsked) {
     MeasuredRuns runs = runsOf(rows);
     for (MeasuredRun& run : runs.runs)
         if (run.numbers.contains("psnr_mask_db")) run.numbers["flip_mask"] = run.method == "a" ? 0.2 : 0.1;
-    const Metric flip = qualityMetric("--quality", "flip_mask");
+    const measure::Metric flip = qualityMetric("--quality", "flip_mask");
     const Rankings rankings = rankSettings(runs, flip);
     const Recommendation answer = recommend(rankings.rankings.at(0), flip, 4);
     EXPECT_EQ(rankings.rankings.at(0).settings.at(*answer.recommended).method, "b");
@@ -176,5 +176,4 @@ TEST(TransparencySample, AnswersOverEveryMethodFromHazeToDenseSmoke) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::recommend

@@ -8,7 +8,7 @@
 
 #include "bench/recommend/measured_runs.h"
 
-namespace dustbench::bench {
+namespace dustbench::recommend {
 
 /// One run; times and qualities as text, so that they may be empty or wrong.
 struct TestRow {
@@ -45,4 +45,4 @@ inline void add(std::vector<TestRow>& rows, const std::string& method, const std
                         .repetition = static_cast<int>(index) + 1});
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::recommend

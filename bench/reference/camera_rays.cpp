@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 
 CameraRays::CameraRays(const scene::View& view)
     : width_(view.width),
@@ -73,4 +73,4 @@ void checkDistances(const scene::View& view, const OpaqueDistances& distances) {
                 fmt::format("ground truth: got the distance {} m to the scene, allowed: 0 or more", metres));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

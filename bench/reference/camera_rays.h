@@ -10,7 +10,7 @@
 
 #include "methods/contract/view.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 
 /// Frame: camera axes (x right, y up, z ahead), origin at the eye. The axes are those of scene::View, which has them in
 /// single precision only.
@@ -66,4 +66,4 @@ struct OpaqueDistances {
 /// Throws std::invalid_argument unless `distances` fits the view and every distance is 0 or more (+inf included).
 void checkDistances(const scene::View& view, const OpaqueDistances& distances);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

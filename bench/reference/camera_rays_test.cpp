@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 namespace {
 
 std::vector<scene::View> views() {
@@ -108,5 +108,4 @@ TEST(OpaqueDistances, RefuseOtherSizesAndDepthsThatAreNone) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

@@ -15,7 +15,7 @@
 #include "methods/kit/maths/fast_functions.h"
 #include "methods/kit/parallel/for_each_block.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 namespace {
 
 constexpr double maximumSlabs = 4e6;  ///< per ray: limit of memory and time
@@ -258,4 +258,4 @@ CloudImage renderLitParticles(const Puffs& store, const scene::View& view, const
     return march(store, view, distances, options, &light);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

@@ -23,7 +23,7 @@
 #include "methods/contract/scene.h"
 #include "methods/contract/volume.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 
 /// Light of the lit variant. As in scene::dustColour, a white surface facing the sun has the value `sun`: single
 /// scattering gives ϖ·F·sun/4 from the sun, attenuated on its way through the dust, with the phase function F of
@@ -55,4 +55,4 @@ struct SunLight {
                                             const OpaqueDistances& distances, const SunLight& light,
                                             const ReferenceOptions& options = {});
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

@@ -10,7 +10,7 @@
 
 #include "bench/reference/test_clouds.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 namespace {
 
 using particles::ParticleStore;
@@ -277,4 +277,4 @@ TEST(CloudMarch, IsTransparentWithoutParticles) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

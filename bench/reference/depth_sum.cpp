@@ -10,7 +10,7 @@
 #include "methods/kit/maths/fast_functions.h"
 #include "methods/kit/parallel/for_each_block.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 namespace {
 
 using maths::HalfErrorFunction, maths::powerOfTwo;
@@ -168,4 +168,4 @@ DepthSum sumDepths(const std::vector<Puff>& puffs, const CameraRays& rays, const
     return sum;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

@@ -12,7 +12,7 @@
 #include "bench/reference/camera_rays.h"
 #include "bench/reference/puff_list.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 
 struct DepthSum {
     std::vector<double> depths;    ///< rows from the top
@@ -25,4 +25,4 @@ struct DepthSum {
 [[nodiscard]] DepthSum sumDepths(const std::vector<Puff>& puffs, const CameraRays& rays,
                                  const OpaqueDistances& distances);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

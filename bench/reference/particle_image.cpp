@@ -11,7 +11,7 @@
 #include "bench/reference/puff_list.h"
 #include "methods/contract/volume.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 namespace {
 
 void demand(bool holds, const char* name, double got, const char* allowed) {
@@ -55,4 +55,4 @@ CloudImage renderParticles(const Puffs& store, const scene::View& view, const Op
     return cloud;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

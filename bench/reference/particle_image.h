@@ -20,7 +20,7 @@
 #include "methods/contract/volume.h"
 #include "methods/kit/pictures/image.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 
 struct ReferenceOptions {
     /// Multiplies every puff's optical depth, above 0 and up to 1: 1 for the `particles` reference, 1/64 for the
@@ -52,4 +52,4 @@ struct CloudImage {
 /// Throws std::invalid_argument with the option and its value.
 void checkOptions(const ReferenceOptions& options);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

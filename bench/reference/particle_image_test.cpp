@@ -11,7 +11,7 @@
 
 #include "bench/reference/test_clouds.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 namespace {
 
 using particles::ParticleStore;
@@ -202,4 +202,4 @@ TEST(ParticleImage, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

@@ -10,7 +10,7 @@
 #include "methods/contract/volume.h"
 #include "methods/kit/maths/transmittance.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 namespace {
 
 void check(const Puffs& store, std::size_t i) {
@@ -104,4 +104,4 @@ Columns columnsOf(const Puff& puff, const RowGeometry& row, double slopeY, const
     return pixelsBetween(0, rays.pixelX(low), rays.width());
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

@@ -10,7 +10,7 @@
 #include "bench/reference/camera_rays.h"
 #include "methods/contract/volume.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 
 /// Along a ray, a puff is cut off at this many s from its centre: ½·erfc(6/√2) = 1e-9 of its depth lies beyond.
 inline constexpr double sigmasAlongRay = 6;
@@ -49,4 +49,4 @@ struct RowGeometry {
 
 [[nodiscard]] Columns columnsOf(const Puff& puff, const RowGeometry& row, double slopeY, const CameraRays& rays);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

@@ -8,7 +8,7 @@
 
 #include "bench/reference/test_clouds.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 namespace {
 
 scene::View smallView() {
@@ -122,4 +122,4 @@ TEST(PuffList, NamesTheParticleThatIsNoPuff) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

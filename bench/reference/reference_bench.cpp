@@ -8,7 +8,7 @@
 #include "bench/reference/particle_image.h"
 #include "bench/reference/test_clouds.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 namespace {
 
 enum class Place { chasing, within };
@@ -72,4 +72,4 @@ BENCHMARK_CAPTURE(continuumReference, chasing, Place::chasing)->Arg(320'000)->Ap
 BENCHMARK_CAPTURE(continuumReference, within, Place::within)->Arg(320'000)->Apply(settings);
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

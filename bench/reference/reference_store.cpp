@@ -12,7 +12,7 @@
 
 #include "bench/measure/sha256.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 namespace fs = std::filesystem;
 namespace {
 
@@ -32,7 +32,7 @@ class InputDigest {
  private:
     void addBytes(std::size_t count) { digest_.add({reinterpret_cast<const char*>(&count), sizeof count}); }
 
-    Sha256 digest_;
+    measure::Sha256 digest_;
 };
 
 void addDust(InputDigest& digest, const Puffs& dust) {
@@ -156,4 +156,4 @@ void ReferenceStore::makeRoom() {
     storedBytes_ = bytes;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

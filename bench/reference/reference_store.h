@@ -15,7 +15,7 @@
 #include "bench/reference/cloud_march.h"
 #include "bench/reference/particle_image.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 
 class ReferenceStore {
  public:
@@ -45,4 +45,4 @@ class ReferenceStore {
     std::int64_t found_ = 0;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

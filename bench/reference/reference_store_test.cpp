@@ -8,7 +8,7 @@
 #include "bench/reference/test_clouds.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 namespace {
 
 namespace fs = std::filesystem;
@@ -128,4 +128,4 @@ TEST(ReferenceStore, RemovesTheOldestImagesAboveItsLimit) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

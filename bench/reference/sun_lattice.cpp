@@ -10,7 +10,7 @@
 #include "methods/kit/maths/transmittance.h"
 #include "methods/kit/parallel/for_each_block.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 namespace {
 
 constexpr double nodesPerDeviation = 4;
@@ -166,4 +166,4 @@ std::size_t SunLattice::nodes() const {
     return sum;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

@@ -17,7 +17,7 @@
 #include "methods/contract/volume.h"
 #include "methods/kit/light/sun_depth.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 
 class SunLattice {
  public:
@@ -56,4 +56,4 @@ class SunLattice {
     std::optional<light::SunDepth> rest_;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

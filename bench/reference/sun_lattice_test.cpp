@@ -8,7 +8,7 @@
 
 #include "bench/reference/test_clouds.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 namespace {
 
 using particles::ParticleStore;
@@ -85,4 +85,4 @@ TEST(SunLattice, IsZeroWithoutPuffs) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

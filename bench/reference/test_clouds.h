@@ -15,7 +15,7 @@
 #include "methods/kit/maths/transmittance.h"
 #include "methods/kit/particles/particle_store.h"
 
-namespace dustbench::bench::test {
+namespace dustbench::reference::test {
 
 inline scene::View viewFrom(glm::dvec3 eye, glm::dvec3 target, int width = 26, int height = 19) {
     scene::View view;
@@ -138,4 +138,4 @@ inline std::vector<double> marchedDepths(const Puffs& store, const scene::View& 
     return depths;
 }
 
-}  // namespace dustbench::bench::test
+}  // namespace dustbench::reference::test

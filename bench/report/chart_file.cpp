@@ -18,7 +18,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/machine_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -63,7 +63,7 @@ bool hasColumn(const RunGroup& group, std::string_view column) {
 
 /// Suites that are used only by the controls of claims.
 bool isOfControls(const ReportData& data, const RunGroup& group) {
-    return std::ranges::any_of(data.papers, [&group](const Paper& paper) {
+    return std::ranges::any_of(data.papers, [&group](const suite::Paper& paper) {
         return std::ranges::find(paper.controls, group.suite) != paper.controls.end() &&
                std::ranges::find(paper.suites, group.suite) == paper.suites.end();
     });
@@ -76,8 +76,8 @@ bool hasCostChart(const RunGroup& group) {
 }
 
 /// The settings of a cell without the number along which its claim is tested; nullopt if the cell lacks that number.
-std::optional<Selection> othersThan(const std::string& along, Selection cell) {
-    const auto place = std::ranges::find(cell, along, &Selection::value_type::first);
+std::optional<claims::Selection> othersThan(const std::string& along, claims::Selection cell) {
+    const auto place = std::ranges::find(cell, along, &claims::Selection::value_type::first);
     if (place == cell.end()) return std::nullopt;
     cell.erase(place);
     return cell;
@@ -87,13 +87,13 @@ std::optional<Selection> othersThan(const std::string& along, Selection cell) {
 /// another setting as well.
 std::vector<std::string> mapIds(const ReportData& data) {
     std::vector<std::string> ids;
-    for (const Paper& paper : data.papers)
-        for (const EvaluatedClaim& evaluated : data.claims) {
+    for (const suite::Paper& paper : data.papers)
+        for (const claims::EvaluatedClaim& evaluated : data.claims) {
             const std::string& along = evaluated.claim.rule.along;
             if (evaluated.paper != paper.id || along.empty()) continue;
-            std::set<std::optional<Selection>> others;
-            for (const ClaimCell& cell : evaluated.result.cells) others.insert(othersThan(along, cell.cell));
-            const std::string id = fmt::format("{}-by-{}", paper.id, nameOf(along));
+            std::set<std::optional<claims::Selection>> others;
+            for (const claims::ClaimCell& cell : evaluated.result.cells) others.insert(othersThan(along, cell.cell));
+            const std::string id = fmt::format("{}-by-{}", paper.id, claims::nameOf(along));
             if (others.size() > 1 && !others.contains(std::nullopt) && std::ranges::find(ids, id) == ids.end())
                 ids.push_back(id);
         }
@@ -124,11 +124,13 @@ void drawChart(const ReportData& data, const std::string& id, const fs::path& fi
     if (file.has_parent_path()) fs::create_directories(file.parent_path(), error);
     if (error) files::failWriting(file.parent_path(), error.value());
 
-    WholeFile script(file.string() + ".js"), svg(file.string() + ".svg"), drawn(file), log(file.string() + ".log");
-    writeWhole(script.temporaryPath(), fmt::format("{}\n{}\nconst reportColumns = {};\nconst reportCharts = {};\n"
-                                                   "const reportData = {};\n{}",
-                                                   vegaScript(), chartScript(), reportColumns(), chartSpecifications(),
-                                                   reportJson(data), reportFile("chart_file.js")));
+    exports::WholeFile script(file.string() + ".js"), svg(file.string() + ".svg"), drawn(file),
+        log(file.string() + ".log");
+    exports::writeWhole(script.temporaryPath(),
+                        fmt::format("{}\n{}\nconst reportColumns = {};\nconst reportCharts = {};\n"
+                                    "const reportData = {};\n{}",
+                                    vegaScript(), chartScript(), reportColumns(), chartSpecifications(),
+                                    reportJson(data), reportFile("chart_file.js")));
     callDrawingProgram({"node", script.temporaryPath().string(), id, svg.temporaryPath().string()}, "nodejs",
                        log.temporaryPath());
     if (format == "svg")
@@ -161,7 +163,7 @@ std::vector<fs::path> writeCharts(const ReportData& data, const std::string& id,
         throw InputError(
             fmt::format("--out: got the file '{}' for {} charts, allowed: a folder", target.out.string(), ids.size()));
     const fs::path folder = target.out.empty() ? target.folder / "charts" : target.out;
-    if (!isFile) removeUnfinished(folder);
+    if (!isFile) exports::removeUnfinished(folder);
     std::vector<fs::path> files;
     for (const std::string& each : ids) {
         files.push_back(isFile ? target.out : folder / fmt::format("{}.{}", each, format));
@@ -170,4 +172,4 @@ std::vector<fs::path> writeCharts(const ReportData& data, const std::string& id,
     return files;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -9,7 +9,7 @@
 
 #include "bench/report/report_data.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 /// Ids of the charts that `writeCharts` can write for this data: `carr2006-fig7`, `carr2006-fig7-stages` …, and of maps
 /// of claims: `carr2006-by-voxel_edge`.
@@ -32,4 +32,4 @@ std::vector<std::filesystem::path> writeCharts(const ReportData& data, const std
 void drawChart(const ReportData& data, const std::string& id, const std::filesystem::path& file,
                const std::string& what);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

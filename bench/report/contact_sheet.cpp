@@ -18,7 +18,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/printable.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 constexpr int tileWidth = 400, gap = 12, margin = 20;
@@ -97,7 +97,7 @@ pictures::Image scaleBar(int width, int height) {
     pictures::Image bar{width, height, {}};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
-            bar.pixels.emplace_back(heatColour((static_cast<float>(x) + 0.5f) / static_cast<float>(width)), 1);
+            bar.pixels.emplace_back(measure::heatColour((static_cast<float>(x) + 0.5f) / static_cast<float>(width)), 1);
     return bar;
 }
 
@@ -217,10 +217,11 @@ class SheetWriter {
             const auto& cell = sheet_.cells[row][column];
             if (!cell) continue;
             const std::string name = cellName(sheet_, row, column);
-            requireFinite(cell->picture, name);
-            requireOpaque(cell->picture, name);
+            measure::requireFinite(cell->picture, name);
+            measure::requireOpaque(cell->picture, name);
             // Clamped before resampling, so that values far above white do not spread, and again for rounding errors.
-            writeImage(asShown(resampled(asShown(cell->picture), tileWidth, tileHeight_)), columnX(column), y_);
+            writeImage(asShown(measure::resampled(asShown(cell->picture), tileWidth, tileHeight_)), columnX(column),
+                       y_);
             const Lines caption = linesOf(cell->caption, tileWidth, plainText);
             const int captionY = y_ + tileHeight_ + gap / 3;
             writeText(caption, columnX(column) + tileWidth / 2, captionY, "middle", plainText);
@@ -352,4 +353,4 @@ std::vector<std::string> brokenText(std::string_view text, double widthPixels, c
     return breaker.take();
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -13,7 +13,7 @@
 
 #include "methods/kit/pictures/image.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 struct SheetCell {
     pictures::Image picture;  ///< linear, opaque
@@ -58,4 +58,4 @@ struct Lettering {
 [[nodiscard]] std::vector<std::string> brokenText(std::string_view text, double widthPixels,
                                                   const Lettering& lettering);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

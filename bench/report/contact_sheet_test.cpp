@@ -19,7 +19,7 @@
 #include "bench/results/temporary_folder.h"
 #include "methods/kit/testing/test_input_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 using testing::ElementsAre;
@@ -30,12 +30,12 @@ using testing::Not;
 constexpr int tileWidth = 400, gap = 12, margin = 20;
 
 pictures::Image plainPicture(int width, int height, glm::vec3 colour) {
-    return imageOf(width, height, [colour](int, int, int c) { return static_cast<double>(colour[c]); });
+    return measure::imageOf(width, height, [colour](int, int, int c) { return static_cast<double>(colour[c]); });
 }
 
 /// Waves whose phase identifies the picture.
 pictures::Image wavyPicture(int width, int height, int number) {
-    return imageOf(width, height, [number](int x, int y, int c) {
+    return measure::imageOf(width, height, [number](int x, int y, int c) {
         return 0.45 + 0.4 * std::sin(0.11 * x + 0.07 * y + 1.3 * number + 0.6 * c);
     });
 }
@@ -81,8 +81,8 @@ std::vector<std::string> textsOf(const std::string& svg) {
 }
 
 pictures::Image drawn(const std::string& svg) {
-    const TemporaryFolder folder;
-    writeWhole(folder.path() / "contact_sheet.svg", svg);
+    const results::TemporaryFolder folder;
+    exports::writeWhole(folder.path() / "contact_sheet.svg", svg);
     return pictures::readImage(drawContactSheet(folder.path()));
 }
 
@@ -116,7 +116,7 @@ TEST(ContactSheet, ShowsEveryPictureInItsPlaceToTheBit) {
         EXPECT_EQ(std::pair(box.width, box.height), std::pair(400, 300));
         EXPECT_EQ(box.x, boxes[0].x + static_cast<int>(i % 3) * (tileWidth + gap));
         EXPECT_EQ(box.y > boxes[0].y, i >= 3);
-        const pictures::Image tile = resampled(sheet.cells[i / 3][i % 3]->picture, 400, 300);
+        const pictures::Image tile = measure::resampled(sheet.cells[i / 3][i % 3]->picture, 400, 300);
         for (int y = 0; y < 300; ++y)
             for (int x = 0; x < 400; ++x)
                 for (int c = 0; c < 3; ++c)
@@ -130,7 +130,7 @@ TEST(ContactSheet, ShowsPicturesAsADisplayDoes) {
     ContactSheet sheet;
     // A stripe far above white, such as the sun, and one below black; once in the tile's size, once twice as large.
     for (const int width : {400, 800}) {
-        const auto stripes = imageOf(width, width / 2, [&](int x, int, int) {
+        const auto stripes = measure::imageOf(width, width / 2, [&](int x, int, int) {
             return x < width / 3 ? 50.0 : x < 2 * width / 3 ? 0.25 : -3.0;
         });
         sheet.cells.push_back({SheetCell{stripes, ""}});
@@ -168,7 +168,7 @@ TEST(ContactSheet, KeepsTextBesidesPicturesAndInItsColumnHoweverLongItIs) {
                 << caption << " beside column " << column;
         EXPECT_EQ(inkedPixels(image, {0, 0, margin - 1, image.height}), 0);
         // Each picture is complete: nothing is drawn over it.
-        const pictures::Image tile = resampled(sheet.cells[1][1]->picture, 400, 300);
+        const pictures::Image tile = measure::resampled(sheet.cells[1][1]->picture, 400, 300);
         for (int y = 0; y < 300; ++y)
             for (int x = 0; x < 400; ++x)
                 ASSERT_NEAR(image.at(boxes[4].x + x, boxes[4].y + y).g, tile.at(x, y).g, 0.01) << x << " " << y;
@@ -235,7 +235,7 @@ TEST(ContactSheet, GivesTheScaleInTheHeatMapsColours) {
     const pictures::Image image = drawn(svg);
     const Box bar = picturesOf(svg).back();
     for (int x = 0; x < bar.width; ++x) {
-        const glm::vec3 wanted = heatColour((static_cast<float>(x) + 0.5f) / static_cast<float>(bar.width));
+        const glm::vec3 wanted = measure::heatColour((static_cast<float>(x) + 0.5f) / static_cast<float>(bar.width));
         for (int c = 0; c < 3; ++c) ASSERT_NEAR(image.at(bar.x + x, bar.y + 3)[c], wanted[c], 0.01);
     }
 }
@@ -341,4 +341,4 @@ TEST(BrokenText, LosesNoLetterAndMeetsTheWidth) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

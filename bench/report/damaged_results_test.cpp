@@ -7,7 +7,7 @@
 #include "bench/report/page.h"
 #include "bench/report/report_reader.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,7 +50,7 @@ TEST(ReportPage, LeavesOutRunsWhoseFilesWereAlteredAndSaysWhichCannotTell) {
     };
     const std::string frames = "frame,frame_ms\n0,1.5\n1,2.5\n";
     const std::string sum = fmt::format(R"(, "outputs": [{{"file": "frames.csv", "bytes": {}, "sha256": "{}"}}])",
-                                        frames.size(), sha256(frames));
+                                        frames.size(), measure::sha256(frames));
     write("whole", frames, sum);
     write("faster", "frame,frame_ms\n0,0.5\n1,0.5\n", sum);
     write("shorter", "frame,frame_ms\n0,1.5\n", sum);
@@ -94,4 +94,4 @@ TEST(ReportPage, NamesEveryKindOfDamageAndIsWritten) {
     EXPECT_TRUE(fs::exists(writePage(folder.path(), data)));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -8,7 +8,7 @@
 #include "bench/run/child_process.h"
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,7 +28,8 @@ fs::path findProgram(const std::string& name, const std::string& package) {
 
 void callDrawingProgram(std::vector<std::string> argv, const std::string& package, const fs::path& log) {
     argv.front() = findProgram(argv.front(), package).string();
-    const ChildOutcome outcome = runChild({argv, log, longestSeconds, [](std::string_view) {}, [] { return false; }});
+    const run::ChildOutcome outcome =
+        run::runChild({argv, log, longestSeconds, [](std::string_view) {}, [] { return false; }});
     if (!outcome.succeeded()) throw InputError(fmt::format("'{}' drew nothing: {}", argv.front(), outcome.reason()));
 }
 
@@ -41,4 +42,4 @@ void convertSvg(const fs::path& svg, const std::string& format, int zoom, const 
     callDrawingProgram(convert, "librsvg2-bin", log);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

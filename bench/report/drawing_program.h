@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 /// `argv[0]` is the name of a program on the PATH. Its stderr is written to `log`. Throws InputError if it fails, or
 /// with the name of the Debian package if it is not installed.
@@ -17,4 +17,4 @@ void callDrawingProgram(std::vector<std::string> argv, const std::string& packag
 void convertSvg(const std::filesystem::path& svg, const std::string& format, int zoom,
                 const std::filesystem::path& file, const std::filesystem::path& log);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -12,7 +12,7 @@
 
 #include "bench/report/report_data.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 class Folder {
  public:
@@ -37,4 +37,4 @@ inline std::string problemsOf(const ReportData& data) {
     return fmt::format("{}", fmt::join(data.problems, "\n"));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

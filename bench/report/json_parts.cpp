@@ -5,7 +5,7 @@
 #include "bench/claims/claim_ledger.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 using nlohmann::json;
@@ -20,21 +20,18 @@ json claimNumber(double value) {
     return rounded(value, 10);
 }
 
-json claimCellJson(const ClaimCell& cell) {
+json claimCellJson(const claims::ClaimCell& cell) {
     json at = json::object();
-    for (const auto& [column, value] : cell.cell) at[nameOf(column)] = value;
-    return {{"text", textOf(cell.cell)},
-            {"at", std::move(at)},
-            {"low", claimNumber(cell.low)},
-            {"high", claimNumber(cell.high)},
-            {"turns", cell.turns},
-            {"verdict", verdictName(cell.verdict)},
-            {"measured", claimNumber(cell.measured)}};
+    for (const auto& [column, value] : cell.cell) at[claims::nameOf(column)] = value;
+    return {
+        {"text", claims::textOf(cell.cell)},     {"at", std::move(at)}, {"low", claimNumber(cell.low)},
+        {"high", claimNumber(cell.high)},        {"turns", cell.turns}, {"verdict", claims::verdictName(cell.verdict)},
+        {"measured", claimNumber(cell.measured)}};
 }
 
 /// The parts of the rule, from which the page makes sentences with names and units.
-json ruleJson(const Rule& rule) {
-    return {{"quantity", quantityWords.wordOf(rule.quantity)},
+json ruleJson(const claims::Rule& rule) {
+    return {{"quantity", claims::quantityWords.wordOf(rule.quantity)},
             {"experiment", rule.experiment},
             {"column", rule.column},
             {"name", rule.name},
@@ -42,19 +39,19 @@ json ruleJson(const Rule& rule) {
             {"per", rule.per},
             {"parts", rule.parts},
             {"match", rule.match},
-            {"of", textOf(rule.of)},
-            {"with", textOf(rule.with)},
-            {"against", nameOf(rule.against)},
-            {"along", nameOf(rule.along)}};
+            {"of", claims::textOf(rule.of)},
+            {"with", claims::textOf(rule.with)},
+            {"against", claims::nameOf(rule.against)},
+            {"along", claims::nameOf(rule.along)}};
 }
 
-json controlsJson(const Claim& claim, const ClaimResult& result) {
+json controlsJson(const claims::Claim& claim, const claims::ClaimResult& result) {
     json list = json::array();
     for (std::size_t i = 0; i < result.controls.size(); ++i)
         list.push_back({{"why", claim.controls[i].why},
                         {"rule", ruleJson(claim.controls[i].rule)},
-                        {"known", verdictName(verdictOf(claim.controls[i].gives))},
-                        {"verdict", verdictName(result.controls[i].verdict)},
+                        {"known", claims::verdictName(claims::verdictOf(claim.controls[i].gives))},
+                        {"verdict", claims::verdictName(result.controls[i].verdict)},
                         {"measured", claimNumber(result.controls[i].measured)}});
     return list;
 }
@@ -65,20 +62,20 @@ json number(double value) {
     return rounded(value, 6);
 }
 
-json claimJson(const EvaluatedClaim& evaluated) {
+json claimJson(const claims::EvaluatedClaim& evaluated) {
     const auto& [paper, claim, result] = evaluated;
-    const Rule& rule = claim.rule;
+    const claims::Rule& rule = claim.rule;
     return {{"id", claim.id},
             {"paper", paper},
             {"text", claim.text},
             {"suite", rule.suite},
             {"rule", ruleJson(rule)},
-            {"over", rule.over == Chance::seeds  ? "seeds"
-                     : rule.over == Chance::none ? ""
-                                                 : "repetitions"},
-            {"verdict", verdictName(result.verdict)},
-            {"verdictText", verdictText(evaluated)},
-            {"control", controlName(result.control)},
+            {"over", rule.over == claims::Chance::seeds  ? "seeds"
+                     : rule.over == claims::Chance::none ? ""
+                                                         : "repetitions"},
+            {"verdict", claims::verdictName(result.verdict)},
+            {"verdictText", claims::verdictText(evaluated)},
+            {"control", claims::controlName(result.control)},
             {"controls", controlsJson(claim, result)},
             {"measured", claimNumber(result.measured)},
             {"low", claimNumber(result.low)},
@@ -105,4 +102,4 @@ std::string scriptSafe(const json& root) {
     return safe;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

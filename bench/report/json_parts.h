@@ -6,13 +6,13 @@
 
 #include "bench/claims/claim_ledger.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 /// Rounded to six digits, which is more than any chart shows and keeps a page small; null if not finite.
 [[nodiscard]] nlohmann::json number(double value);
 
 /// A claim with its rule and its result, without its runs.
-[[nodiscard]] nlohmann::json claimJson(const EvaluatedClaim& evaluated);
+[[nodiscard]] nlohmann::json claimJson(const claims::EvaluatedClaim& evaluated);
 
 /// As text inside a script element: contains no `<`. Invalid UTF-8 is replaced.
 [[nodiscard]] std::string scriptSafe(const nlohmann::json& root);
@@ -24,4 +24,4 @@ nlohmann::json each(const List& list, const ToJson& toJson) {
     return result;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

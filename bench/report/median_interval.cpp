@@ -5,14 +5,14 @@
 
 #include "bench/measure/statistics.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 MedianInterval medianInterval(std::vector<double> values) {
     MedianInterval result;
     result.values = values.size();
     if (values.empty()) return result;
     std::ranges::sort(values);
-    result.median = median(values);
+    result.median = measure::median(values);
 
     const auto n = static_cast<double>(values.size());
     double term = std::exp2(-n), below = term;  // C(n, 0)/2ⁿ, and the sum over i < 1
@@ -29,4 +29,4 @@ MedianInterval medianInterval(std::vector<double> values) {
     return result;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 struct MedianInterval {
     double median = std::numeric_limits<double>::quiet_NaN();
@@ -22,4 +22,4 @@ struct MedianInterval {
 /// NaN if there are no values.
 [[nodiscard]] MedianInterval medianInterval(std::vector<double> values);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

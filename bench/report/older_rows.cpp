@@ -16,23 +16,23 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 /// Planned runs of suites by a key that can also be made from a row.
-using PlannedByKey = std::map<std::string, std::map<std::string, RunSpec>>;
+using PlannedByKey = std::map<std::string, std::map<std::string, results::RunSpec>>;
 
-std::string keyOfSpec(const RunSpec& spec) {
+std::string keyOfSpec(const results::RunSpec& spec) {
     return fmt::format("{}\n{}\n{}\n{}\n{}\n{}", spec.method, spec.scene, spec.size.width, spec.size.height, spec.seed,
                        spec.repetition);
 }
 
-std::string cellIn(const StoredRun& run, std::string_view column) {
+std::string cellIn(const results::StoredRun& run, std::string_view column) {
     const auto found = run.cells.find(column);
     return found == run.cells.end() ? std::string() : found->second;
 }
 
-std::string keyOfRow(const StoredRun& run) {
+std::string keyOfRow(const results::StoredRun& run) {
     return fmt::format("{}\n{}\n{}\n{}\n{}\n{}", cellIn(run, "method"), cellIn(run, "scene"), cellIn(run, "width"),
                        cellIn(run, "height"), cellIn(run, "seed"), cellIn(run, "repetition"));
 }
@@ -43,28 +43,28 @@ bool isEqual(const std::string& a, const std::string& b) {
 }
 
 /// Whether the row lacks a parameter that its method has today.
-bool isOlder(const StoredRun& run) {
+bool isOlder(const results::StoredRun& run) {
     const auto method = std::ranges::find(methods(), cellIn(run, "method"), &MethodInfo::id);
     return method != methods().end() &&
-           std::ranges::any_of(canonicalParameters(*method, {}), [&](const auto& parameter) {
-               return !parameter.second.empty() && !isLaterDefault(parameter.first, parameter.second) &&
+           std::ranges::any_of(results::canonicalParameters(*method, {}), [&](const auto& parameter) {
+               return !parameter.second.empty() && !results::isLaterDefault(parameter.first, parameter.second) &&
                       !run.parameters.contains(parameter.first);
            });
 }
 
 /// The runs of all suites of this build, with as many repetitions as in the rows.
-PlannedByKey plannedRuns(const StoredRuns& runs) {
+PlannedByKey plannedRuns(const results::StoredRuns& runs) {
     int repetitions = 1;
     for (const auto& [id, run] : runs)
         repetitions = std::max(repetitions, static_cast<int>(files::numberOf(cellIn(run, "repetition")).value_or(1)));
     PlannedByKey planned;
-    for (const SuiteFile& file : listSuites())
+    for (const suite::SuiteFile& file : suite::listSuites())
         for (const bool quick : {false, true}) {
             try {
-                for (const PlannedRun& cell : withBaselines(loadSuite(file.id, quick)).cells)
+                for (const suite::PlannedRun& cell : suite::withBaselines(suite::loadSuite(file.id, quick)).cells)
                     for (int repetition = 1; repetition <= repetitions; ++repetition) {
-                        RunSpec spec = inRepetition(cell.spec, repetition);
-                        planned[keyOfSpec(spec)].try_emplace(runId(spec), spec);
+                        results::RunSpec spec = suite::inRepetition(cell.spec, repetition);
+                        planned[keyOfSpec(spec)].try_emplace(results::runId(spec), spec);
                     }
             } catch (const InputError&) {  // which sortIntoGroups reports
             }
@@ -73,12 +73,12 @@ PlannedByKey plannedRuns(const StoredRuns& runs) {
 }
 
 /// The parameters that are missing in the row; nullopt if the row is not the planned run.
-std::optional<std::set<std::string>> missingIn(const StoredRun& run, const RunSpec& spec) {
+std::optional<std::set<std::string>> missingIn(const results::StoredRun& run, const results::RunSpec& spec) {
     const auto differs = [&run](std::string_view column, const std::string& wanted) {
         const std::string said = cellIn(run, column);
         return !wanted.empty() && !said.empty() && !isEqual(said, wanted);
     };
-    if (differs("drive", spec.drive) || differs("sync", std::string(syncs.wordOf(spec.sync))) ||
+    if (differs("drive", spec.drive) || differs("sync", std::string(results::syncs.wordOf(spec.sync))) ||
         differs("frames", std::to_string(spec.frames)))
         return std::nullopt;
     for (const auto& [name, value] : run.parameters)
@@ -89,7 +89,7 @@ std::optional<std::set<std::string>> missingIn(const StoredRun& run, const RunSp
     for (const auto& [name, value] : spec.parameters)
         if (!value.empty() && !run.parameters.contains(name)) missing.insert(name);
     if (missing.empty()) return missing;
-    const ParameterTexts defaults = canonicalParameters(findMethod(spec.method), {});
+    const results::ParameterTexts defaults = results::canonicalParameters(findMethod(spec.method), {});
     const bool isDefault = std::ranges::all_of(
         missing, [&](const std::string& name) { return defaults.at(name) == spec.parameters.at(name); });
     return isDefault ? std::optional(missing) : std::nullopt;
@@ -97,7 +97,7 @@ std::optional<std::set<std::string>> missingIn(const StoredRun& run, const RunSp
 
 }  // namespace
 
-void adoptOlderRows(StoredRuns& runs, std::vector<std::string>& problems) {
+void adoptOlderRows(results::StoredRuns& runs, std::vector<std::string>& problems) {
     if (std::ranges::none_of(runs, [](const auto& entry) { return isOlder(entry.second); })) return;
     const PlannedByKey planned = plannedRuns(runs);
     std::set<std::string> added, taken;
@@ -131,4 +131,4 @@ void adoptOlderRows(StoredRuns& runs, std::vector<std::string>& problems) {
                         renamed.size(), runs.size(), fmt::join(added, ", ")));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

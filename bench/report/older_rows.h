@@ -9,10 +9,10 @@
 
 #include "bench/results/stored_run.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 /// Renames runs that belong to no suite but match exactly one run of a suite in all their fields. Parameters that they
 /// lack must be at their defaults there. Adds a sentence to `problems` with the number of runs and the new parameters.
-void adoptOlderRows(StoredRuns& runs, std::vector<std::string>& problems);
+void adoptOlderRows(results::StoredRuns& runs, std::vector<std::string>& problems);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

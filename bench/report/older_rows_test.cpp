@@ -5,12 +5,12 @@
 
 #include "bench/suite/suite.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 /// The row of a planned run in summary.csv, with an id of another build.
-StoredRun rowOf(const RunSpec& spec) {
-    StoredRun run;
+results::StoredRun rowOf(const results::RunSpec& spec) {
+    results::StoredRun run;
     run.runId = "of-an-older-build";
     run.cells = {{"method", spec.method},
                  {"scene", spec.scene},
@@ -26,8 +26,8 @@ StoredRun rowOf(const RunSpec& spec) {
 }
 
 /// The id that the row gets.
-std::string adopted(const StoredRun& row) {
-    StoredRuns runs{{row.runId, row}};
+std::string adopted(const results::StoredRun& row) {
+    results::StoredRuns runs{{row.runId, row}};
     std::vector<std::string> problems;
     adoptOlderRows(runs, problems);
     EXPECT_EQ(runs.size(), 1u);
@@ -37,14 +37,14 @@ std::string adopted(const StoredRun& row) {
 }
 
 TEST(OlderRows, AParameterThatWasAddedSinceIsAtItsDefault) {
-    const RunSpec spec = inRepetition(loadSuite("carr2006-depth", true).cells.front().spec, 1);
-    StoredRun row = rowOf(spec);
+    const results::RunSpec spec = suite::inRepetition(suite::loadSuite("carr2006-depth", true).cells.front().spec, 1);
+    results::StoredRun row = rowOf(spec);
     ASSERT_EQ(spec.parameters.at("sort"), "quicksort");
     EXPECT_EQ(adopted(row), row.runId) << "it lacks nothing: what differs is not said";
     row.parameters.erase("crossfade");
-    EXPECT_EQ(adopted(row), runId(spec));
+    EXPECT_EQ(adopted(row), results::runId(spec));
 
-    StoredRun other = row;
+    results::StoredRun other = row;
     other.parameters["depth"] = "9";
     EXPECT_EQ(adopted(other), row.runId) << "no suite has it";
     other = row;
@@ -59,11 +59,11 @@ TEST(OlderRows, AParameterThatWasAddedSinceIsAtItsDefault) {
 }
 
 TEST(OlderRows, ARunThatIsThereKeepsItsPlace) {
-    const RunSpec spec = inRepetition(loadSuite("carr2006-depth", true).cells.front().spec, 1);
-    StoredRun older = rowOf(spec), own = older;
+    const results::RunSpec spec = suite::inRepetition(suite::loadSuite("carr2006-depth", true).cells.front().spec, 1);
+    results::StoredRun older = rowOf(spec), own = older;
     older.parameters.erase("crossfade");
-    own.runId = runId(spec);
-    StoredRuns runs{{older.runId, older}, {own.runId, own}};
+    own.runId = results::runId(spec);
+    results::StoredRuns runs{{older.runId, older}, {own.runId, own}};
     std::vector<std::string> problems;
     adoptOlderRows(runs, problems);
     EXPECT_TRUE(problems.empty());
@@ -72,4 +72,4 @@ TEST(OlderRows, ARunThatIsThereKeepsItsPlace) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

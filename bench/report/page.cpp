@@ -15,7 +15,7 @@
 #include "methods/kit/files/machine_error.h"
 #include "methods/kit/files/whole_text.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 using Conditions = std::map<std::string, std::string, std::less<>>;
@@ -34,8 +34,9 @@ std::string verdictChips(const PaperLine& line) {
     std::string chips;
     for (std::size_t index = 0; index < line.verdicts.size(); ++index)
         if (line.verdicts.at(index) > 0)
-            chips += fmt::format("<span class=\"verdict {0}\">{1} {0}</span> ",
-                                 verdictName(static_cast<ClaimVerdict>(index)), line.verdicts.at(index));
+            chips +=
+                fmt::format("<span class=\"verdict {0}\">{1} {0}</span> ",
+                            claims::verdictName(static_cast<claims::ClaimVerdict>(index)), line.verdicts.at(index));
     return chips;
 }
 
@@ -52,7 +53,7 @@ constexpr std::string_view mark = "<meta name=\"generator\" content=\"dustbench\
 
 }  // namespace
 
-std::string citationOf(const Paper& paper) {
+std::string citationOf(const suite::Paper& paper) {
     return fmt::format("{}{}: {}", paper.authors, paper.year != 0 ? fmt::format(" ({})", paper.year) : "", paper.title);
 }
 
@@ -74,10 +75,10 @@ std::string pageOf(const ReportData& data) {
 std::filesystem::path writePage(const std::filesystem::path& folder, const ReportData& data) {
     requireOwnPage(folder);
     const std::filesystem::path file = folder / "index.html";
-    writeWhole(file, pageOf(data));
+    exports::writeWhole(file, pageOf(data));
     // A folder of tables alone keeps its claims.csv, with the verdicts from when it was measured.
     if (!data.claims.empty() && !(data.tablesOnly && std::filesystem::exists(folder / "claims.csv")))
-        writeWhole(folder / "claims.csv", claimsCsv(data.claims));
+        exports::writeWhole(folder / "claims.csv", claims::claimsCsv(data.claims));
     return file;
 }
 
@@ -92,11 +93,11 @@ std::filesystem::path writePageTo(const std::filesystem::path& out, const std::f
     requireOwnPage(place, file.filename().string());
     const std::string root = fs::relative(folder, place).generic_string();
     data.root = root == "." ? "" : root + "/";
-    writeWhole(file, pageOf(data));
+    exports::writeWhole(file, pageOf(data));
     return file;
 }
 
-PaperLine lineOf(const ReportData& data, const Paper& paper, const std::string& folder) {
+PaperLine lineOf(const ReportData& data, const suite::Paper& paper, const std::string& folder) {
     PaperLine line;
     line.citation = citationOf(paper);
     line.venue = paper.venue;
@@ -110,7 +111,7 @@ PaperLine lineOf(const ReportData& data, const Paper& paper, const std::string& 
         data.groups, [](const RunGroup& group) { return !group.suite.empty() && group.id != group.suite; });
     line.form = quick ? "quick" : "full";
     for (const auto& machine : data.machines) line.machines.push_back(machineText(machine));
-    for (const EvaluatedClaim& claim : data.claims)
+    for (const claims::EvaluatedClaim& claim : data.claims)
         if (claim.paper == paper.id) ++line.verdicts.at(static_cast<std::size_t>(claim.result.verdict));
     return line;
 }
@@ -121,12 +122,12 @@ std::string papersPage(const std::vector<PaperLine>& lines) {
     return filled(reportFile("papers.html"), {{"style", reportFile("page.css")},
                                               {"rows", rows},
                                               {"count", std::to_string(lines.size())},
-                                              {"version", escaped(buildFacts().version)}});
+                                              {"version", escaped(measure::buildFacts().version)}});
 }
 
 std::filesystem::path writePapersPage(const std::filesystem::path& folder, const std::vector<PaperLine>& lines) {
     requireOwnPage(folder);
-    writeWhole(folder / "index.html", papersPage(lines));
+    exports::writeWhole(folder / "index.html", papersPage(lines));
     return folder / "index.html";
 }
 
@@ -167,4 +168,4 @@ void requireOwnPage(const std::filesystem::path& folder, std::string_view name) 
             fmt::format("'{}' exists and was not written by dustbench; move it away first", file.string()));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

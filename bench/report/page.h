@@ -11,10 +11,10 @@
 
 #include "bench/report/report_data.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 /// `David N. Carr, Jim Geyer (2006): Variants of …`
-[[nodiscard]] std::string citationOf(const Paper& paper);
+[[nodiscard]] std::string citationOf(const suite::Paper& paper);
 
 /// The report.
 [[nodiscard]] std::string pageOf(const ReportData& data);
@@ -39,7 +39,7 @@ struct PaperLine {
 };
 
 /// `folder` is the report's, relative to the index.
-[[nodiscard]] PaperLine lineOf(const ReportData& data, const Paper& paper, const std::string& folder);
+[[nodiscard]] PaperLine lineOf(const ReportData& data, const suite::Paper& paper, const std::string& folder);
 
 /// The index. It can be published with the papers' folders, which are next to it.
 [[nodiscard]] std::string papersPage(const std::vector<PaperLine>& lines);
@@ -59,4 +59,4 @@ std::filesystem::path writePapersPage(const std::filesystem::path& folder, const
 /// Throws InputError if `folder` contains such a file that was not written by this program.
 void requireOwnPage(const std::filesystem::path& folder, std::string_view name = "index.html");
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

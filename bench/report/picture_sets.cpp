@@ -17,7 +17,7 @@
 #include "methods/kit/pictures/picture_files.h"
 #include "methods/kit/pictures/picture_library.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -110,7 +110,7 @@ class Collector {
 
     void add(const RunGroup& group, const ReportCell& cell) {
         if (cell.done.empty()) return;
-        const StoredRun& run = *cell.done.front();
+        const results::StoredRun& run = *cell.done.front();
         const std::string relative = "runs/" + run.runId + "/images/";
         const std::string label = variantLabel(group, cell);
         const bool wasPictured = run.cells.contains("FILE_image") && !run.cells.at("FILE_image").empty();
@@ -230,4 +230,4 @@ void collectPictures(const fs::path& folder, std::int64_t maximumBytes, ReportDa
     collector.noteMissing();
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -6,7 +6,7 @@
 
 #include "bench/report/report_data.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 /// Pictures are embedded unchanged or as JPEG, whichever is smaller, up to `maximumBytes` in total, beginning with the
 /// moment of every group with the highest FLIP. The others are linked by their path in the folder. Unreadable files are
@@ -16,4 +16,4 @@ void collectPictures(const std::filesystem::path& folder, std::int64_t maximumBy
 /// `data:image/png;base64,…`
 [[nodiscard]] std::string dataUrl(std::string_view mediaType, std::string_view bytes);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -20,7 +20,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 using files::CsvTable;
@@ -28,14 +28,15 @@ using files::numberOf;
 
 /// A suite with all of its configurations, as the checks need it.
 struct ChartOfSuite {
-    Suite suite;
-    std::vector<Axis> axes;  ///< everything that varies except seeds, which are not settings
+    suite::Suite suite;
+    std::vector<suite::Axis> axes;  ///< everything that varies except seeds, which are not settings
 };
 
 class PublishedReader {
  public:
-    PublishedReader(const std::string& paper, const CsvTable& table) : table_(table), suites_(loadPaper(paper).suites) {
-        if (const std::filesystem::path numbers = paperFile(paper, "numbers.csv"); !numbers.empty())
+    PublishedReader(const std::string& paper, const CsvTable& table)
+        : table_(table), suites_(suite::loadPaper(paper).suites) {
+        if (const std::filesystem::path numbers = suite::paperFile(paper, "numbers.csv"); !numbers.empty())
             numbers_ = CsvTable::parseFile(numbers);
     }
 
@@ -46,7 +47,7 @@ class PublishedReader {
         point.column = readColumn(chart);
         point.axis = cell("axis");
         if (!point.axis.empty()) point.x = readPlace(chart, point.axis);
-        point.of = parseSelection(cell("of"), table_.where(row) + "of");
+        point.of = claims::parseSelection(cell("of"), table_.where(row) + "of");
         const std::vector<std::string> series = readSeries(chart, point);
         point.minimum = table_.number(row, "min");
         point.maximum = table_.number(row, "max");
@@ -78,11 +79,11 @@ class PublishedReader {
         const auto [found, isNew] = charts_.try_emplace(id);
         ChartOfSuite& chart = found->second;
         if (isNew) {
-            chart.suite = loadSuite(id, false);
-            const std::vector<const PlannedRun*> cells = cellsOf(chart.suite);
-            chart.axes = worldAxes(cells);
-            std::ranges::move(methodAxes(cells), std::back_inserter(chart.axes));
-            std::erase_if(chart.axes, [](const Axis& axis) { return axis.name == "seed"; });
+            chart.suite = suite::loadSuite(id, false);
+            const std::vector<const suite::PlannedRun*> cells = suite::cellsOf(chart.suite);
+            chart.axes = suite::worldAxes(cells);
+            std::ranges::move(suite::methodAxes(cells), std::back_inserter(chart.axes));
+            std::erase_if(chart.axes, [](const suite::Axis& axis) { return axis.name == "seed"; });
         }
         if (chart.axes.empty() && chart.suite.cells.size() < 2)
             fail("suite", id, "a suite with a chart, which needs two configurations or more");
@@ -96,7 +97,7 @@ class PublishedReader {
         const std::string opens = chart.suite.chart.column.empty() ? "fps_avg" : chart.suite.chart.column;
         std::set<std::string> allowed{opens};
         if (opens == "fps_avg" || opens == "frame_ms_median") allowed = {"fps_avg", "frame_ms_median"};
-        if (!isTimed) std::erase_if(allowed, [](const std::string& column) { return dependsOnSpeed(column); });
+        if (!isTimed) std::erase_if(allowed, [](const std::string& column) { return results::dependsOnSpeed(column); });
         if (!allowed.contains(name))
             fail("column", name, fmt::format("{}: the column of the suite's chart", fmt::join(allowed, ", ")));
         if (const std::string unit = unitOf(name); cell("unit") != unit)
@@ -105,7 +106,7 @@ class PublishedReader {
     }
 
     [[nodiscard]] static std::string unitOf(const std::string& column) {
-        for (const MethodFact& fact : methodFacts())
+        for (const results::MethodFact& fact : results::methodFacts())
             if (fact.info.name == column) return fact.info.unit;
         static const auto columns = nlohmann::json::parse(reportColumns());
         return columns.contains(column) ? columns[column].value("unit", "") : "";
@@ -113,10 +114,10 @@ class PublishedReader {
 
     [[nodiscard]] double readPlace(const ChartOfSuite& chart, const std::string& name) const {
         std::map<std::string, std::vector<double>> loads;
-        for (const Axis& axis : chart.axes) {
+        for (const suite::Axis& axis : chart.axes) {
             std::vector<double> values;
             bool isNumeric = true;
-            for (const PlannedRun& run : chart.suite.cells) {
+            for (const suite::PlannedRun& run : chart.suite.cells) {
                 const std::optional<double> value = numberOf(axis.of(run.spec));
                 isNumeric = isNumeric && value;
                 values.push_back(value.value_or(0));
@@ -142,11 +143,11 @@ class PublishedReader {
 
     /// Labels of the selected series: exactly one, unless the paper states no load.
     [[nodiscard]] std::vector<std::string> readSeries(const ChartOfSuite& chart, const PublishedPoint& point) const {
-        std::vector<Axis> rest = chart.axes;
-        std::erase_if(rest, [&point](const Axis& axis) { return axis.name == point.axis; });
+        std::vector<suite::Axis> rest = chart.axes;
+        std::erase_if(rest, [&point](const suite::Axis& axis) { return axis.name == point.axis; });
         std::set<std::string> all, found;
-        for (const PlannedRun& run : chart.suite.cells) {
-            const std::string settings = labelOf(rest, run.spec);
+        for (const suite::PlannedRun& run : chart.suite.cells) {
+            const std::string settings = suite::labelOf(rest, run.spec);
             const std::string label = run.spec.method + (settings.empty() ? "" : " " + settings);
             all.insert(label);
             if (matches(point.of, run.spec)) found.insert(label);
@@ -158,11 +159,11 @@ class PublishedReader {
         return {found.begin(), found.end()};
     }
 
-    [[nodiscard]] static bool matches(const Selection& of, const RunSpec& spec) {
+    [[nodiscard]] static bool matches(const claims::Selection& of, const results::RunSpec& spec) {
         return std::ranges::all_of(of, [&spec](const auto& wanted) {
             const auto& [column, text] = wanted;
             if (column == "method") return spec.method == text;
-            const std::string name = nameOf(column);
+            const std::string name = claims::nameOf(column);
             if (name == "scene") return spec.scene == text;
             if (name == "drive") return spec.drive == text;
             if (name == "size") return fmt::format("{}x{}", spec.size.width, spec.size.height) == text;
@@ -179,14 +180,15 @@ class PublishedReader {
     /// If numbers.csv contains the same quantity, its value must be the same. A text there is not a number.
     void requireSameAsPrinted(const PublishedPoint& point) const {
         if (!numbers_) return;
-        Selection own = point.of;
+        claims::Selection own = point.of;
         if (!point.axis.empty()) own.emplace_back("p." + point.axis, cell("x"));
         for (std::size_t row = 0; row < numbers_->rows(); ++row) {
             const std::string& text = numbers_->cell(row, "published");
             if (text.empty() || numbers_->cell(row, "suite") != cell("suite") ||
                 numbers_->cell(row, "columns") != point.column)
                 continue;
-            const Selection other = parseSelection(numbers_->cell(row, "of"), numbers_->where(row) + "of");
+            const claims::Selection other =
+                claims::parseSelection(numbers_->cell(row, "of"), numbers_->where(row) + "of");
             const bool isThis = std::ranges::is_permutation(other, own, [](const auto& a, const auto& b) {
                 return a.first == b.first && isSame(a.second, b.second);
             });
@@ -206,16 +208,16 @@ class PublishedReader {
 };
 
 /// A run's value of a setting that a selection names.
-std::string settingOf(const StoredRun& run, const std::string& name) {
+std::string settingOf(const results::StoredRun& run, const std::string& name) {
     if (name == "size") return run.cells.at("width") + "x" + run.cells.at("height");
     if (const auto parameter = run.parameters.find(name); parameter != run.parameters.end()) return parameter->second;
     const auto found = run.cells.find(name);
     return found == run.cells.end() ? std::string() : found->second;
 }
 
-bool isOf(const StoredRun& run, const Selection& of) {
+bool isOf(const results::StoredRun& run, const claims::Selection& of) {
     return std::ranges::all_of(of, [&run](const auto& wanted) {
-        const std::string value = settingOf(run, nameOf(wanted.first));
+        const std::string value = settingOf(run, claims::nameOf(wanted.first));
         const std::optional<double> x = numberOf(value), y = numberOf(wanted.second);
         return value == wanted.second || (x && y && *x == *y);
     });
@@ -224,7 +226,7 @@ bool isOf(const StoredRun& run, const Selection& of) {
 }  // namespace
 
 std::map<std::string, std::vector<PublishedPoint>> readPublished(const std::string& paper) {
-    const std::filesystem::path file = paperFile(paper, "published.csv");
+    const std::filesystem::path file = suite::paperFile(paper, "published.csv");
     std::map<std::string, std::vector<PublishedPoint>> bySuite;
     if (file.empty()) return bySuite;
     const auto table = CsvTable::parseFile(file);
@@ -242,11 +244,11 @@ std::vector<PublishedPoint> publishedIn(const RunGroup& group, const std::vector
         if (cell == group.cells.end()) continue;
         point.method = cell->method;
         for (const auto& [column, value] : point.of)
-            if (const auto setting = cell->settings.find(nameOf(column)); setting != cell->settings.end())
+            if (const auto setting = cell->settings.find(claims::nameOf(column)); setting != cell->settings.end())
                 point.settings.insert(*setting);
         found.push_back(std::move(point));
     }
     return found;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

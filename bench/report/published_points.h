@@ -13,7 +13,7 @@
 
 #include "bench/report/report_data.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 /// By suite. Throws InputError with file, row, subject, given and allowed value for a row whose suite, chart, axis,
 /// series or unit is unknown, that appears twice, or that contradicts numbers.csv.
@@ -22,4 +22,4 @@ namespace dustbench::bench {
 /// The points whose series this group of runs contains, with the settings that are axes of the group.
 [[nodiscard]] std::vector<PublishedPoint> publishedIn(const RunGroup& group, const std::vector<PublishedPoint>& points);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -13,7 +13,7 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/whole_text.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -78,7 +78,7 @@ TEST_F(Published, PointsAndBandsAreRead) {
     EXPECT_EQ(first.minimum, 40);
     EXPECT_EQ(first.maximum, 42);
     EXPECT_EQ(first.hardware, "a PC (2006)");
-    EXPECT_EQ(textOf(first.of), "billboard sort=none");
+    EXPECT_EQ(claims::textOf(first.of), "billboard sort=none");
     EXPECT_TRUE(points.at("mud-bars").front().axis.empty());
 }
 
@@ -138,7 +138,7 @@ TEST_F(Published, AGroupShowsThoseOfItsSeries) {
     rows(
         "mud-loads,billboard sort=none,particles,200,fps_avg,frames/s,40,42,a PC (2006),puffs\n"
         "mud-loads,billboard sort=radix,particles,200,fps_avg,frames/s,4,4,a PC (2006),sorted puffs\n");
-    StoredRun run;
+    results::StoredRun run;
     run.parameters = {{"particles", "100"}, {"sort", "none"}};
     run.cells = {{"method", "billboard"}};
     RunGroup group;
@@ -157,7 +157,7 @@ TEST_F(Published, AGroupShowsThoseOfItsSeries) {
 
 TEST(PublishedNumbers, OfEveryPaperHaveTheirPlaces) {
     std::size_t numbers = 0;
-    for (const std::string& paper : listPapers())
+    for (const std::string& paper : suite::listPapers())
         for (const auto& [suite, points] : readPublished(paper)) numbers += points.size();
     EXPECT_GE(numbers, 13u);
 }
@@ -189,4 +189,4 @@ TEST(PublishedNumbers, OfTheThesisAreHeldToItsSuites) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

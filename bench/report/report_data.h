@@ -15,7 +15,7 @@
 #include "bench/suite/paper.h"
 #include "bench/suite/suite_evaluation.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 /// A parameter or setting that varies between the configurations of an experiment.
 struct ReportAxis {
@@ -32,7 +32,7 @@ struct ReportCell {
     std::string method;
     std::map<std::string, std::string, std::less<>> settings;  ///< by axis, if the method has it
     std::size_t machine = 0;
-    std::vector<const StoredRun*> done;  ///< by repetition
+    std::vector<const results::StoredRun*> done;  ///< by repetition
     std::size_t failed = 0;
     std::map<std::string, MedianInterval, std::less<>> values;  ///< by column of summary.csv
 };
@@ -42,13 +42,13 @@ struct ReportFit {
     std::string axis, column, method;
     std::map<std::string, std::string, std::less<>> settings;  ///< without that of `axis`
     std::size_t machine = 0;
-    CostFit fit;
+    measure::CostFit fit;
 };
 
 /// A number stated in a paper's text.
 struct PublishedPoint {
-    Selection of;      ///< the series it belongs to
-    std::string axis;  ///< with x; empty: the paper states no load
+    claims::Selection of;  ///< the series it belongs to
+    std::string axis;      ///< with x; empty: the paper states no load
     double x = 0;
     std::string column;
     double minimum = 0, maximum = 0;
@@ -62,11 +62,11 @@ struct PublishedPoint {
 struct RunGroup {
     std::string id;  ///< id of its suite, with `-quick` for the quick run; or `other`
     std::string suite, title, summary, paper;
-    std::string suiteText;  ///< the suite's file
-    ChartView chart;        ///< initial view of its chart
+    std::string suiteText;   ///< the suite's file
+    suite::ChartView chart;  ///< initial view of its chart
     /// Settings of the world that all runs share: `size`, `frames`, `speed`.
     std::map<std::string, std::string, std::less<>> common;
-    std::vector<ComparisonResult> comparisons;
+    std::vector<suite::ComparisonResult> comparisons;
     std::vector<ReportAxis> axes;
     std::vector<ReportCell> cells;
     std::vector<ReportFit> fits;
@@ -120,16 +120,16 @@ struct ReportData {
     std::string root;         ///< of links, relative to the page: empty, or ending in '/'
     bool tablesOnly = false;  ///< the folder contains tables but no runs
     std::string writtenUtc;   ///< ISO 8601
-    StoredRuns runs;
+    results::StoredRuns runs;
     std::vector<std::string> problems;  ///< missing or doubtful data, one sentence each
     /// The problems that report different machines or builds.
     std::vector<std::string> mixedMachines;
     /// Provenance fields of each machine involved.
     std::vector<std::map<std::string, std::string, std::less<>>> machines;
-    std::vector<Paper> papers;
+    std::vector<suite::Paper> papers;
     std::vector<std::string> files;  ///< raw files in the folder, relative to it
     std::vector<RunGroup> groups;
-    std::vector<EvaluatedClaim> claims;
+    std::vector<claims::EvaluatedClaim> claims;
     std::vector<FrameTimes> frameTimes;
     std::size_t runsWithoutFrameTimes = 0;  ///< omitted, to keep the page small
     std::vector<PictureSet> pictureSets;
@@ -138,4 +138,4 @@ struct ReportData {
     std::vector<RunWarnings> warnings;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -12,7 +12,7 @@
 #include "methods/kit/files/shipped_folder.h"
 #include "methods/kit/files/whole_text.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,7 +76,7 @@ std::string reportColumns() {
             if (shown.contains("cost") == cost) columns[column] = shown;
     };
     addOthers(true);
-    for (const Metric& metric : metrics())
+    for (const measure::Metric& metric : measure::metrics())
         if (!metric.chartName.empty())
             columns[std::string(metric.column)] = {{"name", metric.chartName},
                                                    {"unit", metric.unit},
@@ -138,4 +138,4 @@ std::string vegaScript() {
     return script + reportFile("vega.js");
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 /// The content of `reports/page/<name>`. Throws InputError.
 [[nodiscard]] std::string reportFile(std::string_view name);
@@ -40,4 +40,4 @@ namespace dustbench::bench {
 /// not installed.
 [[nodiscard]] std::string vegaScript();
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

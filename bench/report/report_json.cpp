@@ -13,7 +13,7 @@
 #include "bench/suite/catalogue.h"
 #include "methods/kit/maths/srgb.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 using nlohmann::json;
@@ -40,7 +40,7 @@ json cellJson(const RunGroup& group, const ReportCell& cell, const RunIndex& ind
                              : json{number(interval.median), number(interval.low), number(interval.high)};
     std::vector<std::string> ids;
     ids.reserve(cell.done.size());
-    for (const StoredRun* run : cell.done) ids.push_back(run->runId);
+    for (const results::StoredRun* run : cell.done) ids.push_back(run->runId);
     const double probability = cell.values.empty() ? 0 : cell.values.begin()->second.probability;
     return {{"method", cell.method},
             {"variant", variantLabel(group, cell)},
@@ -54,7 +54,7 @@ json cellJson(const RunGroup& group, const ReportCell& cell, const RunIndex& ind
 }
 
 json fitJson(const ReportFit& entry) {
-    const CostFit& fit = entry.fit;
+    const measure::CostFit& fit = entry.fit;
     return {{"axis", entry.axis},
             {"column", entry.column},
             {"method", entry.method},
@@ -74,20 +74,20 @@ json publishedJson(const PublishedPoint& point) {
             {"max", number(point.maximum)}, {"hardware", point.hardware}, {"what", point.what}};
 }
 
-json verdictJson(const CellVerdict& cell) {
+json verdictJson(const suite::CellVerdict& cell) {
     return {{"at", cell.at},
             {"ratio", number(cell.result.ratio)},
             {"low", number(cell.result.low)},
             {"high", number(cell.result.high)},
             {"pairs", cell.result.pairs},
-            {"verdict", verdictName(cell.result.verdict)}};
+            {"verdict", measure::verdictName(cell.result.verdict)}};
 }
 
-json comparisonJson(const ComparisonResult& comparison) {
+json comparisonJson(const suite::ComparisonResult& comparison) {
     return {{"of", comparison.of},
             {"with", comparison.with},
             {"axes", comparison.axes},
-            {"columns", each(comparison.columns, [](const ColumnVerdict& column) {
+            {"columns", each(comparison.columns, [](const suite::ColumnVerdict& column) {
                  return json{{"column", column.column},
                              {"cells", each(column.cells, verdictJson)},
                              {"overall", verdictJson(column.overall)}};
@@ -144,7 +144,7 @@ json heatColours() {
     constexpr int steps = 16;
     json colours = json::array();
     for (int step = 0; step <= steps; ++step) {
-        const glm::vec3 linear = heatColour(static_cast<float>(step) / steps);
+        const glm::vec3 linear = measure::heatColour(static_cast<float>(step) / steps);
         const auto byte = [](float value) { return std::lround(255 * maths::encodeSrgb(value)); };
         colours.push_back(fmt::format("#{:02x}{:02x}{:02x}", byte(linear.r), byte(linear.g), byte(linear.b)));
     }
@@ -164,7 +164,7 @@ std::string reportJson(const ReportData& data) {
               {"root", data.root},
               {"tablesOnly", data.tablesOnly},
               {"written", data.writtenUtc},
-              {"version", buildFacts().version},
+              {"version", measure::buildFacts().version},
               {"problems", data.problems},
               {"machines", data.machines},
               {"files", data.files},
@@ -173,19 +173,19 @@ std::string reportJson(const ReportData& data) {
               {"framesLeftOut", data.runsWithoutFrameTimes},
               {"linkedPictures", data.linkedPictures}};
     // All methods of this build, so that a method has the same colour in every report.
-    root["methods"] = each(catalogue("methods"), [](const CatalogueItem& item) {
+    root["methods"] = each(suite::catalogue("methods"), [](const suite::CatalogueItem& item) {
         return json{{"id", item.id}, {"title", item.title}};
     });
-    root["facts"] = each(methodFacts(), [](const MethodFact& fact) {
+    root["facts"] = each(results::methodFacts(), [](const results::MethodFact& fact) {
         return json{{"name", fact.info.name}, {"unit", fact.info.unit}, {"meaning", fact.info.meaning}};
     });
-    root["papers"] = each(data.papers, [](const Paper& paper) {
+    root["papers"] = each(data.papers, [](const suite::Paper& paper) {
         return json{
             {"id", paper.id},       {"title", paper.title},     {"authors", paper.authors},  {"year", paper.year},
             {"venue", paper.venue}, {"summary", paper.summary}, {"controls", paper.controls}};
     });
     root["experiments"] = each(data.groups, [&](const RunGroup& item) { return groupJson(item, index); });
-    root["claims"] = each(data.claims, [&](const EvaluatedClaim& item) {
+    root["claims"] = each(data.claims, [&](const claims::EvaluatedClaim& item) {
         json claim = claimJson(item);
         claim["runs"] = indices(index, item.result.runs);
         return claim;
@@ -201,4 +201,4 @@ std::string reportJson(const ReportData& data) {
     return scriptSafe(root);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -22,7 +22,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 void readRuns(const fs::path& folder, ReportData& data) {
     std::error_code error;
     if (data.tablesOnly) {
-        data.runs = readSummaryRuns(folder, data.problems);
+        data.runs = results::readSummaryRuns(folder, data.problems);
         adoptOlderRows(data.runs, data.problems);
         const bool hasWarnings = fs::exists(folder / "runs.csv", error);
         data.problems.push_back(fmt::format("the folder contains only tables: frame times{} of its runs are not shown",
@@ -52,17 +52,18 @@ void readRuns(const fs::path& folder, ReportData& data) {
             continue;
         }
         try {
-            data.runs.emplace(name, readRunFolder(entry->path()));
+            data.runs.emplace(name, results::readRunFolder(entry->path()));
         } catch (const InputError& fault) {
             data.problems.push_back(fmt::format("left out: {}", fault.what()));
         }
     }
-    addMethodTimes(data.runs);
+    results::addMethodTimes(data.runs);
     if (data.runs.empty()) data.problems.push_back("the folder 'runs' contains no run");
-    if (std::string said = saysNothingOfOutputs(data.runs); !said.empty()) data.problems.push_back(std::move(said));
+    if (std::string said = results::saysNothingOfOutputs(data.runs); !said.empty())
+        data.problems.push_back(std::move(said));
 }
 
-std::string provenanceOf(const StoredRun& run, std::string_view field) {
+std::string provenanceOf(const results::StoredRun& run, std::string_view field) {
     const auto found = run.provenance.find(field);
     return found == run.provenance.end() ? std::string() : found->second;
 }
@@ -73,8 +74,8 @@ void noteMixed(ReportData& data, const std::string& problem) {
 }
 
 /// Runs that a suite leaves out, or that ended early, never had a graphics device.
-bool hadDevice(const StoredRun& run) {
-    return run.status == RunStatus::done || !provenanceOf(run, "gl_renderer").empty();
+bool hadDevice(const results::StoredRun& run) {
+    return run.status == results::RunStatus::done || !provenanceOf(run, "gl_renderer").empty();
 }
 
 MachineOfRun findMachines(ReportData& data) {
@@ -86,7 +87,7 @@ MachineOfRun findMachines(ReportData& data) {
             machineOf[id] = 0;
             continue;
         }
-        const std::vector<std::string> key = valuesOf(run, machineFields());
+        const std::vector<std::string> key = results::valuesOf(run, results::machineFields());
         auto found = std::ranges::find(keys, key);
         if (found == keys.end()) {
             found = keys.insert(keys.end(), key);
@@ -139,8 +140,8 @@ void noteWhatIsNotDone(ReportData& data) {
         kind.runs.push_back(runId);
     };
     for (const auto& [id, run] : data.runs) {
-        if (run.status != RunStatus::done)
-            data.notDone.push_back({id, std::string(runStatuses.wordOf(run.status)), run.reason});
+        if (run.status != results::RunStatus::done)
+            data.notDone.push_back({id, std::string(results::runStatuses.wordOf(run.status)), run.reason});
         if (const auto invalid = run.cells.find("invalid"); invalid != run.cells.end() && !invalid->second.empty())
             noteWarning("invalid: " + invalid->second, id);
         for (const std::string& warning : run.warnings) noteWarning(warning, id);
@@ -153,7 +154,7 @@ void noteWhatIsNotDone(ReportData& data) {
 
 void noteUnknownColumns(ReportData& data) {
     std::set<std::string> known, unknown;
-    for (const auto* list : {&columnsBeforeParameters(), &columnsAfterParameters()})
+    for (const auto* list : {&results::columnsBeforeParameters(), &results::columnsAfterParameters()})
         known.insert(list->begin(), list->end());
     for (const auto& [id, run] : data.runs)
         for (const auto& [column, text] : run.cells)
@@ -164,7 +165,7 @@ void noteUnknownColumns(ReportData& data) {
 }
 
 /// Sorts a paper's experiments in the paper's order, each quick run after the full one.
-void inOrderOf(const Paper& paper, std::vector<RunGroup>& groups) {
+void inOrderOf(const suite::Paper& paper, std::vector<RunGroup>& groups) {
     const auto place = [&paper](const RunGroup& group) {
         return std::pair(std::ranges::find(paper.suites, group.suite) - paper.suites.begin(), group.id);
     };
@@ -175,7 +176,7 @@ void inOrderOf(const Paper& paper, std::vector<RunGroup>& groups) {
 
 std::set<std::string> controlsOf(const std::string& paper) {
     try {
-        const std::vector<std::string> controls = loadPaper(paper).controls;
+        const std::vector<std::string> controls = suite::loadPaper(paper).controls;
         return {controls.begin(), controls.end()};
     } catch (const InputError&) {  // which readPapers reports
         return {};
@@ -205,22 +206,23 @@ void placePublished(const std::string& paper, ReportData& data) {
 
 /// The claims of a paper, from the runs: summary.csv may differ from them. Those about the device are judged for each
 /// machine by itself.
-std::vector<EvaluatedClaim> claimsOf(const std::string& paper, const fs::path& folder, const ReportData& data,
-                                     const MachineOfRun& machineOf) {
-    const auto evaluate = [&](const StoredRuns& runs) {
-        return evaluateClaims(paper, files::CsvTable::parseText(summaryCsv(runs), (folder / "summary.csv").string()),
-                              readFindings(folder));
+std::vector<claims::EvaluatedClaim> claimsOf(const std::string& paper, const fs::path& folder, const ReportData& data,
+                                             const MachineOfRun& machineOf) {
+    const auto evaluate = [&](const results::StoredRuns& runs) {
+        return claims::evaluateClaims(
+            paper, files::CsvTable::parseText(results::summaryCsv(runs), (folder / "summary.csv").string()),
+            claims::readFindings(folder));
     };
-    std::vector<EvaluatedClaim> claims = evaluate(data.runs);
+    std::vector<claims::EvaluatedClaim> claims = evaluate(data.runs);
     if (data.machines.size() < 2) return claims;
-    std::vector<std::vector<ClaimVerdict>> ofMachines(claims.size());
+    std::vector<std::vector<claims::ClaimVerdict>> ofMachines(claims.size());
     for (std::size_t machine = 0; machine < data.machines.size(); ++machine) {
-        StoredRuns runs = data.runs;
+        results::StoredRuns runs = data.runs;
         std::erase_if(runs, [&](const auto& entry) { return machineOf.at(entry.first) != machine; });
-        const std::vector<EvaluatedClaim> own = evaluate(runs);
+        const std::vector<claims::EvaluatedClaim> own = evaluate(runs);
         for (std::size_t i = 0; i < own.size(); ++i) ofMachines[i].push_back(own[i].result.verdict);
     }
-    for (std::size_t i = 0; i < claims.size(); ++i) tellByMachine(claims[i], ofMachines[i]);
+    for (std::size_t i = 0; i < claims.size(); ++i) claims::tellByMachine(claims[i], ofMachines[i]);
     return claims;
 }
 
@@ -229,7 +231,7 @@ void readPapers(const fs::path& folder, const MachineOfRun& machineOf, ReportDat
     if (ids.empty()) return;
     for (const std::string& id : ids) {
         try {
-            data.papers.push_back(loadPaper(id));
+            data.papers.push_back(suite::loadPaper(id));
             inOrderOf(data.papers.back(), data.groups);
             placePublished(id, data);
             std::ranges::move(claimsOf(id, folder, data, machineOf), std::back_inserter(data.claims));
@@ -262,8 +264,8 @@ ReportData readReport(const fs::path& folder, std::int64_t maximumPictureBytes) 
     const fs::path whole = fs::absolute(folder).lexically_normal();
     data.folder = (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();
     data.writtenUtc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
-    data.tablesOnly = holdsTablesAlone(folder);
-    data.problems = selfcheckProblems(folder);
+    data.tablesOnly = results::holdsTablesAlone(folder);
+    data.problems = selfcheck::selfcheckProblems(folder);
     readRuns(folder, data);
     const MachineOfRun machineOf = findMachines(data);
     noteBuilds(data);
@@ -312,11 +314,11 @@ FrameTimes condense(const std::vector<double>& frameMs) {
 
 void readFrameTimes(const std::filesystem::path& folder, ReportData& data) {
     struct Candidate {
-        const StoredRun* run;
+        const results::StoredRun* run;
         std::string group, label;
     };
     std::vector<Candidate> candidates;
-    std::set<const StoredRun*> known;
+    std::set<const results::StoredRun*> known;
     for (const RunGroup& group : data.groups)
         for (const ReportCell& cell : group.cells)
             if (!cell.done.empty() && cell.done.front()->cells.contains("frame_ms_median") &&
@@ -351,4 +353,4 @@ void readFrameTimes(const std::filesystem::path& folder, ReportData& data) {
             fmt::format("frame times of {} runs cannot be read; the first error: {}", unread, firstFault));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

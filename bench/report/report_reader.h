@@ -9,7 +9,7 @@
 
 #include "bench/report/report_data.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 /// Default limit of embedded pictures, in bytes.
 inline constexpr std::int64_t defaultPictureBytes = 12'000'000;
@@ -34,4 +34,4 @@ inline constexpr std::size_t minimumBins = 8, maximumBins = 40;  // of a histogr
 /// reported in the data's problems.
 void readFrameTimes(const std::filesystem::path& folder, ReportData& data);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

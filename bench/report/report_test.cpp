@@ -22,13 +22,14 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/pictures/picture_files.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 namespace fs = std::filesystem;
 
-StoredRun run(const std::string& method, int particles, int repetition, double ms, const std::string& sort = "") {
-    StoredRun made;
+results::StoredRun run(const std::string& method, int particles, int repetition, double ms,
+                       const std::string& sort = "") {
+    results::StoredRun made;
     made.runId = fmt::format("{}-{}-{}-{}", method, particles, sort, repetition);
     made.parameters["particles"] = std::to_string(particles);
     if (!sort.empty()) made.parameters["sort"] = sort;
@@ -76,16 +77,17 @@ TEST(FrameTimes, KeepsEveryFrameInTheHistogramAndEverySpikeInTheTrace) {
 }
 
 TEST(Experiments, PutRepetitionsIntoOneCellAndNameWhatDiffers) {
-    StoredRuns runs;
+    results::StoredRuns runs;
     for (const int particles : {1000, 100})
         for (const int repetition : {1, 2}) {
-            for (const StoredRun& made : {run("haze", particles, repetition, particles * 0.01 + repetition, "radix"),
-                                          run("haze", particles, repetition, particles * 0.02 + repetition, "none"),
-                                          run("mist", particles, repetition, 3)})
+            for (const results::StoredRun& made :
+                 {run("haze", particles, repetition, particles * 0.01 + repetition, "radix"),
+                  run("haze", particles, repetition, particles * 0.02 + repetition, "none"),
+                  run("mist", particles, repetition, 3)})
                 runs.emplace(made.runId, made);
         }
-    runs.begin()->second.status = RunStatus::failed;
-    std::vector<const StoredRun*> all;
+    runs.begin()->second.status = results::RunStatus::failed;
+    std::vector<const results::StoredRun*> all;
     for (const auto& [id, made] : runs) all.push_back(&made);
     const RunGroup group = makeGroup(all, {});
 
@@ -111,13 +113,13 @@ TEST(Experiments, PutRepetitionsIntoOneCellAndNameWhatDiffers) {
 }
 
 TEST(Experiments, FindTheExponentOfACost) {
-    StoredRuns runs;
+    results::StoredRuns runs;
     for (const int particles : {100, 200, 400, 800, 1600})
         for (const int repetition : {1, 2}) {
-            const StoredRun made = run("haze", particles, repetition, 5 + 0.001 * std::pow(particles, 1.5));
+            const results::StoredRun made = run("haze", particles, repetition, 5 + 0.001 * std::pow(particles, 1.5));
             runs.emplace(made.runId, made);
         }
-    std::vector<const StoredRun*> all;
+    std::vector<const results::StoredRun*> all;
     for (const auto& [id, made] : runs) all.push_back(&made);
     const RunGroup group = makeGroup(all, {});
     ASSERT_EQ(group.fits.size(), 1u);
@@ -130,7 +132,7 @@ TEST(ReportJson, LetsNoTextBecomeMarkup) {
     ReportData data;
     data.folder = "</script><script>alert(1)</script>";
     data.problems = {"<!-- \xff\xfe not UTF-8"};
-    StoredRun made = run("haze", 100, 1, 3);
+    results::StoredRun made = run("haze", 100, 1, 3);
     made.runId = "<b>";
     data.runs.emplace(made.runId, made);
     const std::string json = reportJson(data);
@@ -165,10 +167,10 @@ TEST(RunGroups, TwoSuitesOfTheSameRunsAreBothShownAndTwoFormsOfASuiteOnce) {
     folder.write("suites/one.toml", suite + "[quick]\ntitle = \"Title\"\n");
     folder.write("suites/two.toml", suite);
     files::useDataFolders("--data", {folder.path().string()});
-    StoredRuns runs;
-    for (const PlannedRun& planned : loadSuite("one", false).cells) {
-        StoredRun made = run("null_method", 10, 1, 3);
-        made.runId = runId(planned.spec);
+    results::StoredRuns runs;
+    for (const suite::PlannedRun& planned : suite::loadSuite("one", false).cells) {
+        results::StoredRun made = run("null_method", 10, 1, 3);
+        made.runId = results::runId(planned.spec);
         runs.emplace(made.runId, made);
     }
     std::vector<std::string> problems, ids;
@@ -186,7 +188,7 @@ TEST(ReportPictures, AreBase64) {
 /// Writes the files of one run with metrics and pictures of 24 x 16 pixels into the folder, and returns its data.
 ReportData pictured(const Folder& folder) {
     ReportData data;
-    StoredRun made = run("haze", 100, 1, 3);
+    results::StoredRun made = run("haze", 100, 1, 3);
     made.cells["FILE_image"] = "runs/" + made.runId + "/images/f000030.png";
     made.cells["metric_reference"] = "exact";
     const fs::path images = folder.path() / "runs" / made.runId / "images";
@@ -273,15 +275,15 @@ TEST(ReportPictures, AreMissedAndNamedWhereTheyAreDamaged) {
 }
 
 TEST(Report, ChartsOfASettingNeedMoreThanItsSeeds) {
-    StoredRuns runs;
+    results::StoredRuns runs;
     for (const int seed : {1, 2, 3, 4, 5})
         for (const char* sort : {"none", "radix"}) {
-            StoredRun made = run("haze", 100, 1, 3 + seed, sort);
+            results::StoredRun made = run("haze", 100, 1, 3 + seed, sort);
             made.cells["seed"] = std::to_string(seed);
             made.runId += fmt::format("-{}", seed);
             runs.emplace(made.runId, made);
         }
-    std::vector<const StoredRun*> all, alone;
+    std::vector<const results::StoredRun*> all, alone;
     for (const auto& [id, made] : runs) {
         all.push_back(&made);
         if (made.parameters.at("sort") == "none") alone.push_back(&made);
@@ -298,17 +300,17 @@ TEST(Report, ChartsOfASettingNeedMoreThanItsSeeds) {
 }
 
 TEST(Report, AMapNeedsAClaimAlongANumberAndASecondSetting) {
-    const auto claim = [](const std::string& along, const std::vector<Selection>& cells) {
-        EvaluatedClaim made;
+    const auto claim = [](const std::string& along, const std::vector<claims::Selection>& cells) {
+        claims::EvaluatedClaim made;
         made.paper = "mud";
         made.claim.rule.along = along;
-        for (const Selection& cell : cells) made.result.cells.emplace_back().cell = cell;
+        for (const claims::Selection& cell : cells) made.result.cells.emplace_back().cell = cell;
         return made;
     };
     const auto cell = [](const char* edge, const char* speed) {
-        return Selection{{"p.voxel_edge", edge}, {"p.speed", speed}};
+        return claims::Selection{{"p.voxel_edge", edge}, {"p.speed", speed}};
     };
-    const auto idsOf = [](const EvaluatedClaim& evaluated) {
+    const auto idsOf = [](const claims::EvaluatedClaim& evaluated) {
         ReportData data;
         data.papers.emplace_back().id = "mud";
         data.claims = {evaluated, evaluated};
@@ -323,7 +325,7 @@ TEST(Report, AMapNeedsAClaimAlongANumberAndASecondSetting) {
 
 TEST(PapersPage, ListsEachPaperWithItsVerdicts) {
     ReportData data;
-    StoredRun warned = run("haze", 100, 1, 3), failed = run("haze", 200, 1, 3);
+    results::StoredRun warned = run("haze", 100, 1, 3), failed = run("haze", 200, 1, 3);
     data.runs.emplace(warned.runId, warned);
     data.runs.emplace(failed.runId, failed);
     data.notDone.push_back({failed.runId, "failed", "it rained"});
@@ -333,16 +335,16 @@ TEST(PapersPage, ListsEachPaperWithItsVerdicts) {
     group.suite = "dust";
     group.id = "dust-quick";
     data.groups.push_back(group);
-    Paper paper, other;
+    suite::Paper paper, other;
     paper.id = "mud";
     paper.title = "Mud & dust";
     paper.authors = "Nobody";
     paper.year = 2026;
     other.id = "air";
     for (const auto& [of, verdict] :
-         {std::pair(&paper, ClaimVerdict::confirmed), std::pair(&paper, ClaimVerdict::notTested),
-          std::pair(&paper, ClaimVerdict::confirmed), std::pair(&other, ClaimVerdict::refuted)}) {
-        EvaluatedClaim claim;
+         {std::pair(&paper, claims::ClaimVerdict::confirmed), std::pair(&paper, claims::ClaimVerdict::notTested),
+          std::pair(&paper, claims::ClaimVerdict::confirmed), std::pair(&other, claims::ClaimVerdict::refuted)}) {
+        claims::EvaluatedClaim claim;
         claim.paper = of->id;
         claim.result.verdict = verdict;
         data.claims.push_back(claim);
@@ -383,4 +385,4 @@ TEST(Report, APaperWhoseRunsAreAnothersControlsIsNotJudged) {
     EXPECT_EQ(papersOf({lent, exchanged}), (std::set<std::string>{"juckel2007", "senger2009"}));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -16,7 +16,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 using files::numberOf;
@@ -28,30 +28,30 @@ constexpr std::array<std::string_view, 6> worldCells{"scene", "drive", "seed", "
 /// Columns whose growth with a load is fitted.
 constexpr std::array<std::string_view, 3> fittedColumns{"frame_ms_median", "build_ms_median", "sort_ms_median"};
 
-const std::string& cellOf(const StoredRun& run, std::string_view column) {
+const std::string& cellOf(const results::StoredRun& run, std::string_view column) {
     static const std::string none;
     const auto found = run.cells.find(column);
     return found == run.cells.end() ? none : found->second;
 }
 
 /// Everything that can distinguish two cells, except method and machine.
-Settings settingsOf(const StoredRun& run) {
+Settings settingsOf(const results::StoredRun& run) {
     Settings settings(run.parameters.begin(), run.parameters.end());
     // A run that failed early has no frames and a skipped one no drive, but they still belong to the same cell.
     for (const std::string_view column : worldCells)
-        if (run.status == RunStatus::done || (column != "frames" && !cellOf(run, column).empty()))
+        if (run.status == results::RunStatus::done || (column != "frames" && !cellOf(run, column).empty()))
             settings.emplace(column, cellOf(run, column));
     if (!cellOf(run, "width").empty()) settings["size"] = cellOf(run, "width") + "x" + cellOf(run, "height");
     return settings;
 }
 
 bool isWorld(std::string_view name) {
-    return name == "size" || std::ranges::find(worldCells, name) != worldCells.end() || isOfTheWorld(name);
+    return name == "size" || std::ranges::find(worldCells, name) != worldCells.end() || suite::isOfTheWorld(name);
 }
 
 void describe(ReportAxis& axis, const std::set<std::string>& methods) {
-    std::vector<Parameter> declared = worldParameterList();
-    for (const CatalogueItem& item : catalogue("methods"))
+    std::vector<Parameter> declared = suite::worldParameterList();
+    for (const suite::CatalogueItem& item : suite::catalogue("methods"))
         if (methods.contains(item.id)) std::ranges::copy(item.parameters, std::back_inserter(declared));
     const auto found = std::ranges::find(declared, axis.name, &Parameter::name);
     if (found == declared.end()) return;
@@ -70,10 +70,10 @@ void sortValues(ReportAxis& axis) {
 
 /// World settings that vary, and method settings that vary between runs of the same method. Settings that only differ
 /// between methods are part of the setup.
-std::vector<ReportAxis> axesOf(const std::vector<const StoredRun*>& runs) {
+std::vector<ReportAxis> axesOf(const std::vector<const results::StoredRun*>& runs) {
     std::map<std::string, std::map<std::string, std::set<std::string>>> valuesByMethod;  // by name, then method
     std::set<std::string> methods;
-    for (const StoredRun* run : runs)
+    for (const results::StoredRun* run : runs)
         for (const auto& [name, value] : settingsOf(*run)) {
             valuesByMethod[name][isWorld(name) ? std::string() : cellOf(*run, "method")].insert(value);
             methods.insert(cellOf(*run, "method"));
@@ -95,10 +95,10 @@ std::vector<ReportAxis> axesOf(const std::vector<const StoredRun*>& runs) {
 }
 
 /// The settings of the world that are the same in all runs that have them.
-Settings commonOf(const std::vector<const StoredRun*>& runs) {
+Settings commonOf(const std::vector<const results::StoredRun*>& runs) {
     std::map<std::string, std::set<std::string>> values;
-    for (const StoredRun* run : runs)
-        if (run->status == RunStatus::done)
+    for (const results::StoredRun* run : runs)
+        if (run->status == results::RunStatus::done)
             for (const auto& [name, value] : settingsOf(*run))
                 if (isWorld(name) && !value.empty()) values[name].insert(value);
     Settings common;
@@ -118,11 +118,11 @@ void fitCurves(RunGroup& group) {
         }
         for (const auto& [key, cells] : curves)
             for (const std::string_view column : fittedColumns) {
-                std::vector<CostPoint> points;
+                std::vector<measure::CostPoint> points;
                 for (const ReportCell* cell : cells)
-                    for (const double ms : numbersIn(validOf(cell->done), column))
+                    for (const double ms : suite::numbersIn(suite::validOf(cell->done), column))
                         points.push_back({*numberOf(cell->settings.at(axis.name)), ms});
-                const CostFit fit = fitCost(points);
+                const measure::CostFit fit = measure::fitCost(points);
                 if (!fit.reason.empty()) continue;
                 const auto& [method, rest, machine] = key;
                 group.fits.push_back({axis.name, std::string(column), method, rest, machine, fit});
@@ -143,36 +143,37 @@ std::string labelOf(const RunGroup& group, const ReportCell& cell, bool world) {
 /// Finds the runs of suites in results.
 class RunFinder {
  public:
-    RunFinder(const StoredRuns& runs, int repetitions) : runs_(runs), repetitions_(repetitions) {
+    RunFinder(const results::StoredRuns& runs, int repetitions) : runs_(runs), repetitions_(repetitions) {
         for (const auto& [id, run] : runs) methods_.insert(cellOf(run, "method"));
     }
 
     /// The existing runs of the suite, full or quick.
-    [[nodiscard]] std::vector<const StoredRun*> of(const Suite& suite) const {
-        std::vector<const StoredRun*> found;
-        for (const PlannedRun& cell : suite.cells) {
+    [[nodiscard]] std::vector<const results::StoredRun*> of(const suite::Suite& suite) const {
+        std::vector<const results::StoredRun*> found;
+        for (const suite::PlannedRun& cell : suite.cells) {
             if (!methods_.contains(cell.spec.method)) continue;  // saves the hash in its id
             for (int repetition = 1; repetition <= repetitions_; ++repetition)
-                if (const auto run = runs_.find(runId(inRepetition(cell.spec, repetition))); run != runs_.end())
+                if (const auto run = runs_.find(results::runId(suite::inRepetition(cell.spec, repetition)));
+                    run != runs_.end())
                     found.push_back(&run->second);
         }
         return found;
     }
 
  private:
-    const StoredRuns& runs_;
+    const results::StoredRuns& runs_;
     int repetitions_;
     std::set<std::string> methods_;
 };
 
 /// Fills in the suite's description and its verdicts on the runs.
-void describeBy(Suite suite, int repetitions, const StoredRuns& runs, RunGroup& group) {
+void describeBy(suite::Suite suite, int repetitions, const results::StoredRuns& runs, RunGroup& group) {
     suite.repetitions = std::max(suite.repetitions, repetitions);
     group.suite = suite.id;
     group.title = suite.title.empty() ? suite.id : suite.title;
     group.summary = suite.summary;
     group.chart = suite.chart;
-    group.comparisons = suiteVerdicts(suite, runs);
+    group.comparisons = suite::suiteVerdicts(suite, runs);
 }
 
 }  // namespace
@@ -186,13 +187,13 @@ std::string worldLabel(const RunGroup& group, const ReportCell& cell) {
     return labelOf(group, cell, true);
 }
 
-RunGroup makeGroup(const std::vector<const StoredRun*>& runs, const MachineOfRun& machines) {
-    static const std::vector<std::string> columns = chartColumns();
+RunGroup makeGroup(const std::vector<const results::StoredRun*>& runs, const MachineOfRun& machines) {
+    static const std::vector<std::string> columns = suite::chartColumns();
     RunGroup group;
     group.axes = axesOf(runs);
     group.common = commonOf(runs);
     std::map<std::tuple<std::string, Settings, std::size_t>, ReportCell> cells;
-    for (const StoredRun* run : runs) {
+    for (const results::StoredRun* run : runs) {
         const Settings all = settingsOf(*run);
         Settings settings;
         for (const ReportAxis& axis : group.axes)
@@ -203,17 +204,17 @@ RunGroup makeGroup(const std::vector<const StoredRun*>& runs, const MachineOfRun
         cell.method = cellOf(*run, "method");
         cell.settings = settings;
         cell.machine = index;
-        if (run->status == RunStatus::done)
+        if (run->status == results::RunStatus::done)
             cell.done.push_back(run);
         else
             ++cell.failed;
     }
     for (auto& [key, cell] : cells) {
-        std::ranges::sort(cell.done, {}, [](const StoredRun* run) {
+        std::ranges::sort(cell.done, {}, [](const results::StoredRun* run) {
             return std::pair(numberOf(cellOf(*run, "repetition")).value_or(0), run->runId);
         });
         for (const std::string& column : columns)
-            if (std::vector<double> values = numbersIn(cell.done, column); !values.empty())
+            if (std::vector<double> values = suite::numbersIn(cell.done, column); !values.empty())
                 cell.values[column] = medianInterval(std::move(values));
         group.cells.push_back(std::move(cell));
     }
@@ -221,26 +222,27 @@ RunGroup makeGroup(const std::vector<const StoredRun*>& runs, const MachineOfRun
     return group;
 }
 
-std::vector<RunGroup> sortIntoGroups(const StoredRuns& runs, const MachineOfRun& machines,
+std::vector<RunGroup> sortIntoGroups(const results::StoredRuns& runs, const MachineOfRun& machines,
                                      std::vector<std::string>& problems) {
     int repetitions = 1;
     for (const auto& [id, run] : runs)
-        repetitions = std::max(repetitions, static_cast<int>(numberIn(run, "repetition").value_or(1)));
+        repetitions = std::max(repetitions, static_cast<int>(suite::numberIn(run, "repetition").value_or(1)));
 
     const RunFinder finder(runs, repetitions);
     std::vector<RunGroup> groups;
-    std::set<const StoredRun*> placed;
+    std::set<const results::StoredRun*> placed;
     std::vector<std::string> faults;
-    for (const SuiteFile& file : listSuites()) {
-        std::set<const StoredRun*> shown;  // of this suite
+    for (const suite::SuiteFile& file : suite::listSuites()) {
+        std::set<const results::StoredRun*> shown;  // of this suite
         for (const bool quick : {false, true}) {
             try {
-                Suite suite = loadSuite(file.id, quick);
-                const std::vector<const StoredRun*> found = finder.of(suite);
+                suite::Suite suite = suite::loadSuite(file.id, quick);
+                const std::vector<const results::StoredRun*> found = finder.of(suite);
                 // Runs that belong to both the full and the quick run are shown once.
-                if (std::ranges::all_of(found, [&](const StoredRun* run) { return shown.contains(run); })) continue;
+                if (std::ranges::all_of(found, [&](const results::StoredRun* run) { return shown.contains(run); }))
+                    continue;
                 shown.insert(found.begin(), found.end());
-                const std::vector<const StoredRun*> all = finder.of(withBaselines(suite));
+                const std::vector<const results::StoredRun*> all = finder.of(suite::withBaselines(suite));
                 placed.insert(all.begin(), all.end());
                 RunGroup group = makeGroup(found, machines);
                 group.id = quick ? file.id + "-quick" : file.id;
@@ -253,7 +255,7 @@ std::vector<RunGroup> sortIntoGroups(const StoredRuns& runs, const MachineOfRun&
             }
         }
     }
-    std::vector<const StoredRun*> others;
+    std::vector<const results::StoredRun*> others;
     for (const auto& [id, run] : runs)
         if (!placed.contains(&run)) others.push_back(&run);
     if (!others.empty()) {
@@ -268,4 +270,4 @@ std::vector<RunGroup> sortIntoGroups(const StoredRuns& runs, const MachineOfRun&
     return groups;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -15,7 +15,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace fs = std::filesystem;
 namespace {
 
@@ -24,7 +24,7 @@ constexpr std::size_t mostColumns = 9;
 
 struct ShownPicture {
     pictures::Image picture;
-    std::optional<Plane> difference;  ///< from the reference image; empty if this run has none
+    std::optional<measure::Plane> difference;  ///< from the reference image; empty if this run has none
     std::string caption;
 };
 
@@ -40,7 +40,7 @@ std::string captionOf(const files::CsvTable& metrics, std::size_t row) {
                        metrics.number(row, "ssim"), metrics.number(row, "flip"));
 }
 
-pictures::Image readPicture(const ResultsFolder& results, const SheetRun& run, const std::string& frame,
+pictures::Image readPicture(const results::ResultsFolder& results, const SheetRun& run, const std::string& frame,
                             const char* what) {
     const double number = files::numberOf(frame).value_or(-1);
     if (!(number >= 0 && number < 1e9))
@@ -49,7 +49,7 @@ pictures::Image readPicture(const ResultsFolder& results, const SheetRun& run, c
                                fmt::format("f{:06}{}.exr", static_cast<std::int64_t>(number), what));
 }
 
-files::CsvTable metricsOfRun(const ResultsFolder& results, const SheetRun& run) {
+files::CsvTable metricsOfRun(const results::ResultsFolder& results, const SheetRun& run) {
     return files::CsvTable::parseFile(results.runFolder(run.runId) / "metrics.csv");
 }
 
@@ -61,7 +61,7 @@ std::vector<std::size_t> rowsWithPicture(const files::CsvTable& metrics) {
     return rows;
 }
 
-std::vector<Moment> readReferences(const ResultsFolder& results, const SheetRun& run) {
+std::vector<Moment> readReferences(const results::ResultsFolder& results, const SheetRun& run) {
     const files::CsvTable metrics = metricsOfRun(results, run);
     std::vector<Moment> moments;
     for (const std::size_t row : rowsWithPicture(metrics)) {
@@ -74,19 +74,20 @@ std::vector<Moment> readReferences(const ResultsFolder& results, const SheetRun&
     return moments;
 }
 
-void addEvaluated(const ResultsFolder& results, const SheetRun& run, std::vector<Moment>& moments) {
+void addEvaluated(const results::ResultsFolder& results, const SheetRun& run, std::vector<Moment>& moments) {
     const files::CsvTable metrics = metricsOfRun(results, run);
     std::size_t number = 0;
     for (const std::size_t row : rowsWithPicture(metrics)) {
         Moment& moment = moments.at(number++);
         pictures::Image picture = readPicture(results, run, metrics.cell(row, "frame"), "");
-        Plane difference =
-            flip(preparePicture(moment.reference, "the reference"), preparePicture(picture, run.label)).map;
+        measure::Plane difference = measure::flip(measure::preparePicture(moment.reference, "the reference"),
+                                                  measure::preparePicture(picture, run.label))
+                                        .map;
         moment.pictures.push_back({std::move(picture), std::move(difference), captionOf(metrics, row)});
     }
 }
 
-void addAsItIs(const ResultsFolder& results, const SheetRun& run, std::vector<Moment>& moments) {
+void addAsItIs(const results::ResultsFolder& results, const SheetRun& run, std::vector<Moment>& moments) {
     for (Moment& moment : moments)
         moment.pictures.push_back(
             {readPicture(results, run, moment.frame, ""), std::nullopt, "its own simulation:  no reference image"});
@@ -107,7 +108,7 @@ std::string headingOf(const Moment& moment) {
 
 std::optional<SheetCell> differenceOf(const ShownPicture& picture, const SheetScale& scale) {
     if (!picture.difference) return std::nullopt;
-    return SheetCell{heatMap(*picture.difference, 0, scale.maximum), ""};
+    return SheetCell{measure::heatMap(*picture.difference, 0, scale.maximum), ""};
 }
 
 ContactSheet momentsAsRows(std::span<const SheetRun> runs, const std::vector<Moment>& moments) {
@@ -149,7 +150,8 @@ ContactSheet methodsAsRows(std::span<const SheetRun> runs, const std::vector<Mom
 
 }  // namespace
 
-ContactSheet sideBySideSheet(const ResultsFolder& results, std::span<const SheetRun> runs, const std::string& title) {
+ContactSheet sideBySideSheet(const results::ResultsFolder& results, std::span<const SheetRun> runs,
+                             const std::string& title) {
     const auto firstEvaluated = std::ranges::find_if(runs, &SheetRun::evaluated);
     if (firstEvaluated == runs.end()) throw std::invalid_argument("contact sheet: no run has metrics");
     std::vector<Moment> moments = readReferences(results, *firstEvaluated);
@@ -165,16 +167,16 @@ ContactSheet sideBySideSheet(const ResultsFolder& results, std::span<const Sheet
 
 fs::path writeContactSheet(const ContactSheet& sheet, const fs::path& folder) {
     const fs::path file = folder / "contact_sheet.svg";
-    writeWhole(file, contactSheetSvg(sheet));
+    exports::writeWhole(file, contactSheetSvg(sheet));
     return file;
 }
 
 fs::path drawContactSheet(const fs::path& folder) {
     const fs::path file = folder / "contact_sheet.png";
-    WholeFile drawn(file), log(file.string() + ".log");
+    exports::WholeFile drawn(file), log(file.string() + ".log");
     convertSvg(folder / "contact_sheet.svg", "png", 1, drawn.temporaryPath(), log.temporaryPath());
     drawn.publish();
     return file;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

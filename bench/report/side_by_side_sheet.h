@@ -12,7 +12,7 @@
 #include "bench/report/contact_sheet.h"
 #include "bench/results/results_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 struct SheetRun {
     std::string runId;
@@ -22,7 +22,7 @@ struct SheetRun {
 
 /// Reads the pictures of the runs in `results`. All runs must have the same world and moments, and at least one must
 /// have metrics. Throws InputError if a picture is missing or cannot be read.
-[[nodiscard]] ContactSheet sideBySideSheet(const ResultsFolder& results, std::span<const SheetRun> runs,
+[[nodiscard]] ContactSheet sideBySideSheet(const results::ResultsFolder& results, std::span<const SheetRun> runs,
                                            const std::string& title);
 
 /// Returns the file, `folder`/contact_sheet.svg.
@@ -30,4 +30,4 @@ std::filesystem::path writeContactSheet(const ContactSheet& sheet, const std::fi
 /// `folder`/contact_sheet.png from the .svg. Throws InputError if rsvg-convert is not installed or fails.
 std::filesystem::path drawContactSheet(const std::filesystem::path& folder);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -15,7 +15,7 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace {
 
 template <typename Number>
@@ -113,8 +113,8 @@ std::vector<std::string> valuesOf(const StoredRun& run, std::span<const std::str
 
 std::string differingInput(const StoredRun& first, const StoredRun& second) {
     std::map<std::string, std::string> hashes;
-    for (const InputHash& input : first.inputs) hashes[input.file] = input.sha256;
-    for (const InputHash& input : second.inputs) {
+    for (const measure::InputHash& input : first.inputs) hashes[input.file] = input.sha256;
+    for (const measure::InputHash& input : second.inputs) {
         const auto found = hashes.find(input.file);
         if (found == hashes.end() || found->second != input.sha256) return input.file;
         hashes.erase(found);
@@ -149,13 +149,13 @@ std::optional<KeyFields> pairKey(const StoredRun& run) try {
     static const std::set<std::string> leftOut = [] {
         std::set<std::string> names{"method", "images",  "volumes",          "formats",        "resolution",
                                     "region", "metrics", "metric_reference", "metric_pictures"};
-        for (const ExporterOption& option : exporterOptions()) names.insert(option.id);
+        for (const exports::ExporterOption& option : exports::exporterOptions()) names.insert(option.id);
         return names;
     }();
     KeyFields fields = keyFields(run);
     std::erase_if(fields, [](const auto& field) {
         const auto& [name, value] = field;
-        return leftOut.contains(name) || (name.starts_with("p.") && !worldParameters().find(name.substr(2)));
+        return leftOut.contains(name) || (name.starts_with("p.") && !world::worldParameters().find(name.substr(2)));
     });
     return fields;
 } catch (const InputError&) {
@@ -181,4 +181,4 @@ void addMethodTimes(StoredRuns& runs) {
     }
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

@@ -15,7 +15,7 @@
 #include "bench/results/stored_run.h"
 #include "methods/contract/method.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 /// Names and values in the order of canonicalKey (run_spec.h): `method`, `scene`, `drive`, `p.particles`, `frames` …
 using KeyFields = std::vector<std::pair<std::string, std::string>>;
@@ -66,4 +66,4 @@ inline constexpr std::string_view baselineMethod = "null_method";
 /// without such a run, and for the null method itself.
 void addMethodTimes(StoredRuns& runs);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

@@ -7,7 +7,7 @@
 
 #include "methods/contract/registry.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace {
 
 class MethodTime : public testing::Test {
@@ -130,4 +130,4 @@ TEST_F(MethodTime, GoesWhenItsNullRunGoes) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

@@ -6,13 +6,13 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/matching_files.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 const std::string& Freshness::hashOf(const std::string& input) {
     const auto [entry, isNew] = hashes_.try_emplace(input);
     if (isNew) try {
             const std::filesystem::path file = files::dataPath(input);  // an absolute path stays as it is
-            if (!file.empty()) entry->second = sha256OfFile(file);
+            if (!file.empty()) entry->second = measure::sha256OfFile(file);
         } catch (const std::exception&) {
             entry->second.clear();
         }
@@ -27,14 +27,14 @@ std::string Freshness::whyOutdated(const StoredRun& run) {
         const bool known = commit != run.provenance.end() && !commit->second.empty();
         return "measured by another build of dustbench" + (known ? ", commit " + commit->second.substr(0, 12) : "");
     }
-    for (const InputHash& input : run.inputs) {
+    for (const measure::InputHash& input : run.inputs) {
         const std::string& now = hashOf(input.file);
         if (now.empty()) return input.file + " can no longer be read";
         if (now != input.sha256) return input.file + " has changed since";
     }
-    for (const InputHash& search : run.searches) {
+    for (const measure::InputHash& search : run.searches) {
         const auto [entry, isNew] = names_.try_emplace(search.file);
-        if (isNew) entry->second = hashOfFoundNames(search.file);
+        if (isNew) entry->second = measure::hashOfFoundNames(search.file);
         if (entry->second == search.sha256) continue;
         if (files::isPattern(search.file)) return "other files now match " + search.file;
         return search.file + " did not exist and now does";
@@ -42,4 +42,4 @@ std::string Freshness::whyOutdated(const StoredRun& run) {
     return {};
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

@@ -8,12 +8,12 @@
 
 #include "bench/results/stored_run.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 class Freshness {
  public:
     /// Compares with this program, unless a build id is given.
-    explicit Freshness(std::string buildId = buildFacts().buildId) : buildId_(std::move(buildId)) {}
+    explicit Freshness(std::string buildId = measure::buildFacts().buildId) : buildId_(std::move(buildId)) {}
 
     /// Why the result is outdated, as the end of a sentence; empty if it is not. Runs that did not complete are never
     /// outdated.
@@ -27,4 +27,4 @@ class Freshness {
     std::map<std::string, std::string> names_;   ///< hashes of the names found by searches, by path
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

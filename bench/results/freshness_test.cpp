@@ -8,7 +8,7 @@
 #include "methods/kit/files/matching_files.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace {
 
 using testing::HasSubstr;
@@ -16,8 +16,8 @@ using testing::HasSubstr;
 StoredRun runAfter(const files::InputLog& log) {
     StoredRun run;
     run.provenance = {{"build_id", "0123"}};
-    run.inputs = hashInputs(log.files());
-    run.searches = hashSearches(log.searches());
+    run.inputs = measure::hashInputs(log.files());
+    run.searches = measure::hashSearches(log.searches());
     return run;
 }
 
@@ -51,4 +51,4 @@ TEST(Freshness, NoticesAFileThatStandsBeforeTheDeliveredOne) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

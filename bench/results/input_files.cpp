@@ -3,7 +3,7 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/matching_files.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 std::vector<std::filesystem::path> dataFilesOf(const ParameterValues& parameters) {
     std::vector<std::filesystem::path> files;
@@ -15,14 +15,14 @@ std::vector<std::filesystem::path> dataFilesOf(const ParameterValues& parameters
     return files;
 }
 
-void recordInputs(const World& world, const ParameterValues& ofMethod, const files::InputLog& read,
-                  Provenance& provenance) {
+void recordInputs(const world::World& world, const ParameterValues& ofMethod, const files::InputLog& read,
+                  measure::Provenance& provenance) {
     std::vector<std::filesystem::path> all = world.inputFiles();
     for (std::filesystem::path& file : dataFilesOf(ofMethod)) all.push_back(std::move(file));
     for (std::filesystem::path& file : read.files()) all.push_back(std::move(file));
-    provenance.inputs = hashInputs(all);
-    provenance.ignored = ignoredParts(read.ignored());
-    provenance.searches = hashSearches(read.searches());
+    provenance.inputs = measure::hashInputs(all);
+    provenance.ignored = measure::ignoredParts(read.ignored());
+    provenance.searches = measure::hashSearches(read.searches());
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

@@ -7,7 +7,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/whole_text.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace fs = std::filesystem;
 namespace {
 
@@ -92,4 +92,4 @@ bool merge(const MergePlan& plan, ResultsFolder& results, const std::function<bo
     return true;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

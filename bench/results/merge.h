@@ -12,7 +12,7 @@
 #include "bench/results/results_folder.h"
 #include "bench/results/stored_run.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 struct MergePlan {
     struct Copy {
@@ -40,4 +40,4 @@ void requireSpace(const MergePlan& plan, const std::filesystem::path& folder, st
 /// be copied.
 [[nodiscard]] bool merge(const MergePlan& plan, ResultsFolder& results, const std::function<bool()>& interrupted);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

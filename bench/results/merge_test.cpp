@@ -12,7 +12,7 @@
 #include "bench/results/summary.h"
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace {
 namespace fs = std::filesystem;
 
@@ -212,4 +212,4 @@ TEST_F(Merge, SaysWhereItDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

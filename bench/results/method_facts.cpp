@@ -10,7 +10,7 @@
 
 #include "methods/contract/registry.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 const std::vector<MethodFact>& methodFacts() {
     static const std::vector<MethodFact> all = [] {
@@ -61,4 +61,4 @@ std::vector<std::string> whyInvalid(const MethodInfo& method, const Columns& fac
     return reasons;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

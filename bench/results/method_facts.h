@@ -10,7 +10,7 @@
 #include "methods/contract/facts.h"
 #include "methods/contract/method.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 struct MethodFact {
     FactInfo info;
@@ -36,4 +36,4 @@ inline constexpr double countDeviations = 5;
 [[nodiscard]] std::vector<std::string> whyInvalid(const MethodInfo& method, const Columns& facts,
                                                   const DustCount& dust);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace {
 
 using testing::ElementsAre;
@@ -47,4 +47,4 @@ TEST(Validity, NamesANumberOfParticlesThatChanceDoesNotExplain) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

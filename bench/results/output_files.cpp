@@ -8,14 +8,14 @@
 #include "bench/measure/sha256.h"
 #include "methods/kit/files/limits.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array<std::string_view, 3> notOutputs{"run.json", "spec.json", "log.txt"};
 
 std::string sumOf(const fs::path& file, std::uintmax_t bytes) {
-    return bytes > files::limits::summedBytes ? "" : sha256OfFile(file, files::limits::summedBytes);
+    return bytes > files::limits::summedBytes ? "" : measure::sha256OfFile(file, files::limits::summedBytes);
 }
 
 std::string whyOtherLength(const OutputFile& output, const fs::path& file) {
@@ -93,4 +93,4 @@ std::string bytesText(std::uint64_t bytes) {
     return fmt::format("{:.{}f} {}", value, unit == 0 || value >= 100 ? 0 : 1, units[unit]);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

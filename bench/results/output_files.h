@@ -12,7 +12,7 @@
 
 #include "bench/results/run_spec.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 struct OutputFile {
     std::string file;  ///< relative to the run's folder
@@ -41,4 +41,4 @@ struct OutputFile {
 /// `1.4 GB`
 [[nodiscard]] std::string bytesText(std::uint64_t bytes);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

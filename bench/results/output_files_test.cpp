@@ -7,7 +7,7 @@
 #include "bench/measure/sha256.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace {
 namespace fs = std::filesystem;
 
@@ -31,9 +31,9 @@ TEST_F(OutputFiles, AreAllFilesOfTheRunWithTheirSums) {
     ASSERT_EQ(outputs.size(), 2u);
     EXPECT_EQ(outputs[0].file, "frames.csv");
     EXPECT_EQ(outputs[0].bytes, 8u);
-    EXPECT_EQ(outputs[0].sha256, sha256("frame\n0\n"));
+    EXPECT_EQ(outputs[0].sha256, measure::sha256("frame\n0\n"));
     EXPECT_EQ(outputs[1].file, "images/f000000.png");
-    EXPECT_EQ(outputs[1].sha256, sha256(std::string(3'000'000, 'p')));
+    EXPECT_EQ(outputs[1].sha256, measure::sha256(std::string(3'000'000, 'p')));
     EXPECT_EQ(whyAltered(outputs, folder_.path()), "");
     folder_.write("notes.txt", "somebody's notes");
     EXPECT_EQ(whyAltered(outputs, folder_.path()), "");
@@ -67,4 +67,4 @@ TEST(OutputNames, StayBelowTheFolder) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

@@ -19,7 +19,7 @@
 #include "methods/kit/files/csv.h"
 #include "methods/kit/files/machine_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace fs = std::filesystem;
 namespace {
 
@@ -59,7 +59,7 @@ ResultsFolder::ResultsFolder(fs::path folder) : folder_(std::move(folder)) {
     if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
         const int why = errno;
         close(lock_);
-        if (why == EWOULDBLOCK) throw cannotWrite(folder_, "another dustbench is writing into it");
+        if (why == EWOULDBLOCK) throw exports::cannotWrite(folder_, "another dustbench is writing into it");
         files::failWriting(folder_, why);
     }
 
@@ -142,7 +142,7 @@ void ResultsFolder::publish(const std::string& runId) {
 
 void ResultsFolder::place(const std::string& runId) {
     StoredRun run = readRunFile(hidden(runId) / "run.json");
-    putOnDisk(hidden(runId));
+    exports::putOnDisk(hidden(runId));
     const fs::path old = folder_ / "runs" / fmt::format("{}{}", oldStart, runId);
     std::error_code error;
     if (fs::exists(runFolder(runId))) {
@@ -152,7 +152,7 @@ void ResultsFolder::place(const std::string& runId) {
     }
     fs::rename(hidden(runId), runFolder(runId), error);
     if (error) files::failWriting(runFolder(runId), error.value());
-    putNameOnDisk(runFolder(runId));
+    exports::putNameOnDisk(runFolder(runId));
     fs::remove_all(old, error);
     runs_[runId] = std::move(run);
 }
@@ -164,7 +164,7 @@ void ResultsFolder::discard(const std::string& runId) {
 
 void ResultsFolder::writeSummary() {
     addMethodTimes(runs_);
-    writeWhole(folder_ / "summary.csv", summaryCsv(runs_));
+    exports::writeWhole(folder_ / "summary.csv", summaryCsv(runs_));
 }
 
 fs::path referencesBeside(const fs::path& runFolder) {
@@ -201,4 +201,4 @@ std::string summaryCsv(const StoredRuns& runs) {
     return text;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

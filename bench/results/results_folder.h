@@ -10,7 +10,7 @@
 #include "bench/export/whole_file.h"
 #include "bench/results/stored_run.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 class ResultsFolder {
  public:
@@ -61,4 +61,4 @@ class ResultsFolder {
 /// summary.csv as text: the runs one row each, ordered by id; p.… columns are the union of all parameters.
 [[nodiscard]] std::string summaryCsv(const StoredRuns& runs);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

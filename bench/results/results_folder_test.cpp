@@ -4,7 +4,7 @@
 
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace {
 namespace fs = std::filesystem;
 
@@ -49,4 +49,4 @@ TEST(ResultsFolder, StaysIfItWasThereOrHoldsAnything) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

@@ -9,7 +9,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -60,16 +60,18 @@ Json parametersObject(const ParameterTexts& parameters) {
     return object;
 }
 
-Json provenanceObject(const Provenance& provenance) {
+Json provenanceObject(const measure::Provenance& provenance) {
     Json inputs = Json::array();
-    for (const InputHash& input : provenance.inputs) inputs.push_back({{"file", input.file}, {"sha256", input.sha256}});
+    for (const measure::InputHash& input : provenance.inputs)
+        inputs.push_back({{"file", input.file}, {"sha256", input.sha256}});
     Json searches = Json::array();
-    for (const InputHash& search : provenance.searches)
+    for (const measure::InputHash& search : provenance.searches)
         searches.push_back({{"path", search.file}, {"names_sha256", search.sha256}});
     Json ignored = Json::array();
-    for (const IgnoredParts& each : provenance.ignored) ignored.push_back({{"file", each.file}, {"parts", each.parts}});
-    const BuildFacts& build = provenance.build;
-    const Machine& machine = provenance.machine;
+    for (const measure::IgnoredParts& each : provenance.ignored)
+        ignored.push_back({{"file", each.file}, {"parts", each.parts}});
+    const measure::BuildFacts& build = provenance.build;
+    const measure::Machine& machine = provenance.machine;
     return {
         {"argv", provenance.argv},
         {"started_utc", provenance.startedUtc},
@@ -117,40 +119,40 @@ Json outputsArray(const std::optional<std::vector<OutputFile>>& outputs) {
     return list;
 }
 
-Json volumesObject(const std::optional<VolumeSettings>& volumes) {
+Json volumesObject(const std::optional<exports::VolumeSettings>& volumes) {
     if (!volumes) return nullptr;
     Json object = {{"frames", volumes->frames.text()},
-                   {"formats", formatsText(volumes->formats)},
+                   {"formats", exports::formatsText(volumes->formats)},
                    {"resolution", volumes->resolution},
-                   {"region", volumes->region ? Json(regionText(*volumes->region)) : Json(nullptr)}};
+                   {"region", volumes->region ? Json(exports::regionText(*volumes->region)) : Json(nullptr)}};
     for (const auto& [id, word] : volumes->namedOptions()) object[id] = word;
     return object;
 }
 
-std::optional<VolumeSettings> readVolumes(const Json& json) {
+std::optional<exports::VolumeSettings> readVolumes(const Json& json) {
     if (json.is_null()) return std::nullopt;
-    VolumeSettings volumes;
-    volumes.frames = parseFrameRange("volumes", json.at("frames").get<std::string>());
-    volumes.formats = parseFormats(json.at("formats").get<std::string>());
+    exports::VolumeSettings volumes;
+    volumes.frames = exports::parseFrameRange("volumes", json.at("frames").get<std::string>());
+    volumes.formats = exports::parseFormats(json.at("formats").get<std::string>());
     volumes.resolution = json.at("resolution").get<int>();
-    if (!json.at("region").is_null()) volumes.region = parseRegion(json.at("region").get<std::string>());
-    for (const ExporterOption& option : exporterOptions())
+    if (!json.at("region").is_null()) volumes.region = exports::parseRegion(json.at("region").get<std::string>());
+    for (const exports::ExporterOption& option : exports::exporterOptions())
         if (json.contains(option.id)) volumes.setOption(option.id, json.at(option.id).get<std::string>());
     return volumes;
 }
 
-Json metricPlanObject(const std::optional<MetricPlan>& metricPlan) {
+Json metricPlanObject(const std::optional<reference::MetricPlan>& metricPlan) {
     if (!metricPlan) return nullptr;
     return {{"frames", metricPlan->moments ? Json(metricPlan->moments->text()) : Json(nullptr)},
             {"finer", metricPlan->finer},
             {"pictures", metricPlan->keepsPictures}};
 }
 
-std::optional<MetricPlan> readMetricPlan(const Json& json) {
+std::optional<reference::MetricPlan> readMetricPlan(const Json& json) {
     if (json.is_null()) return std::nullopt;
-    MetricPlan metricPlan;
+    reference::MetricPlan metricPlan;
     if (!json.at("frames").is_null())
-        metricPlan.moments = parseFrameRange("metrics", json.at("frames").get<std::string>());
+        metricPlan.moments = exports::parseFrameRange("metrics", json.at("frames").get<std::string>());
     for (const auto& [name, value] : json.at("finer").items()) metricPlan.finer[name] = value.get<std::string>();
     metricPlan.keepsPictures = json.at("pictures").get<bool>();
     return metricPlan;
@@ -294,7 +296,7 @@ std::string listToJson(const std::vector<ListedItem>& items) {
     return text(list);
 }
 
-std::string provenanceToJson(const Provenance& provenance, std::span<const gpu::Adapter> adapters,
+std::string provenanceToJson(const measure::Provenance& provenance, std::span<const gpu::Adapter> adapters,
                              const Columns& more) {
     Json object = provenanceObject(provenance);
     object["adapters"] = Json::array();
@@ -311,4 +313,4 @@ std::string provenanceToJson(const Provenance& provenance, std::span<const gpu::
     return text(object);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

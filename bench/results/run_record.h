@@ -20,7 +20,7 @@
 #include "methods/kit/gpu/adapter.h"
 #include "methods/kit/memory/memory_ledger.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 enum class RunStatus { done, failed, timeout, skipped };
 inline constexpr Choices<RunStatus> runStatuses{{"done", RunStatus::done},
@@ -46,7 +46,7 @@ struct RunRecord {
     Columns summary;                    ///< columns of summary.csv, without parameters
     std::vector<std::pair<std::string, MemoryUse>> memory;  ///< owner (`world`, `method`, `device`) and structure
     std::optional<std::vector<OutputFile>> outputs;         ///< files in the same folder; empty: unknown
-    Provenance provenance;
+    measure::Provenance provenance;
 };
 
 /// run.json as text.
@@ -63,7 +63,7 @@ struct ExportRecord {
     std::string drive;  ///< the resolved one
     std::vector<Moment> moments;
     std::vector<std::string> series;  ///< names of the series files
-    Provenance provenance;
+    measure::Provenance provenance;
 };
 /// export.json as text.
 [[nodiscard]] std::string toJson(const ExportRecord& record);
@@ -80,7 +80,7 @@ struct ListedItem {
 /// For `--json`: an array of objects with the items' values in order, and `parameters` if requested.
 [[nodiscard]] std::string listToJson(const std::vector<ListedItem>& items);
 /// One object with the provenance fields of a run, followed by the machine's adapters and `more`.
-[[nodiscard]] std::string provenanceToJson(const Provenance& provenance, std::span<const gpu::Adapter> adapters,
-                                           const Columns& more);
+[[nodiscard]] std::string provenanceToJson(const measure::Provenance& provenance,
+                                           std::span<const gpu::Adapter> adapters, const Columns& more);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

@@ -13,7 +13,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace {
 
 RunSpec spec() {
@@ -34,8 +34,8 @@ TEST(RunRecord, SpecificationSurvivesItsFile) {
     EXPECT_EQ(canonicalKey(specFromJson(specToJson(spec()))), canonicalKey(spec()));
     EXPECT_EQ(runId(specFromJson(specToJson(spec()))), runId(spec()));
     RunSpec withVolumes = spec();
-    withVolumes.volumes =
-        VolumeSettings{{2, 10, 4}, {"htg", "vdb"}, 77, Box{{-1.5, 0.1, 2}, {3, 4, 5}}, {{"vdb_precision", "float"}}};
+    withVolumes.volumes = exports::VolumeSettings{
+        {2, 10, 4}, {"htg", "vdb"}, 77, exports::Box{{-1.5, 0.1, 2}, {3, 4, 5}}, {{"vdb_precision", "float"}}};
     EXPECT_EQ(canonicalKey(specFromJson(specToJson(withVolumes))), canonicalKey(withVolumes));
     EXPECT_NE(canonicalKey(withVolumes), canonicalKey(spec()));
     RunSpec withPath = spec();
@@ -61,7 +61,7 @@ TEST(RunRecord, CellsSurviveTheFileAsTheyStandInTheTable) {
     record.summary.emplace_back("frame_ms_max", std::numeric_limits<double>::quiet_NaN());
     record.summary.emplace_back("cpu_bytes", std::int64_t{96'000'000'000});
     const auto file = std::filesystem::path(testing::TempDir()) / ("record-" + std::to_string(getpid()) + ".json");
-    writeWhole(file, toJson(record));
+    exports::writeWhole(file, toJson(record));
     const StoredRun run = readRunFile(file);
     EXPECT_EQ(run.runId, runId(record.spec));
     EXPECT_EQ(run.status, RunStatus::timeout);
@@ -75,7 +75,7 @@ TEST(RunRecord, CellsSurviveTheFileAsTheyStandInTheTable) {
 
 TEST(RunRecord, AStrangeFileIsNamed) {
     const auto file = std::filesystem::path(testing::TempDir()) / ("strange-" + std::to_string(getpid()) + ".json");
-    writeWhole(file, "{\"run_id\": 5}");
+    exports::writeWhole(file, "{\"run_id\": 5}");
     try {
         (void)readRunFile(file);
         FAIL() << "nothing thrown";
@@ -95,7 +95,7 @@ StoredRun readChanged(const std::string& from, const std::string& to) {
     const std::size_t at = text.rfind(from);
     EXPECT_NE(at, std::string::npos) << from;
     const auto file = std::filesystem::path(testing::TempDir()) / ("changed-" + std::to_string(getpid()) + ".json");
-    writeWhole(file, text.replace(at, from.size(), to));
+    exports::writeWhole(file, text.replace(at, from.size(), to));
     return readRunFile(file);
 }
 
@@ -128,7 +128,7 @@ TEST(RunRecord, OutputsSurviveTheFileAndStayBelowItsFolder) {
     const auto read = [&](const std::string& from = "", const std::string& to = "") {
         std::string text = toJson(record);
         if (!from.empty()) text.replace(text.find(from), from.size(), to);
-        writeWhole(file, text);
+        exports::writeWhole(file, text);
         return readRunFile(file);
     };
     const auto outputs = read().outputs;
@@ -161,7 +161,7 @@ TEST(Summary, EveryMeasuredColumnIsOneOfTheTable) {
 }
 
 TEST(Summary, SharesOfTheFrameAreMediansOfTheirColumns) {
-    std::vector<FrameRecord> frames(3);
+    std::vector<measure::FrameRecord> frames(3);
     for (std::size_t i = 0; i < frames.size(); ++i) {
         frames[i].frame = static_cast<std::int64_t>(i);
         frames[i].frameMs = 10.0 + static_cast<double>(i);
@@ -183,7 +183,7 @@ TEST(Summary, SharesOfTheFrameAreMediansOfTheirColumns) {
 }
 
 TEST(Summary, EnergyIsASumOnlyWhereEveryPartTells) {
-    const std::vector<FrameRecord> frames(2);
+    const std::vector<measure::FrameRecord> frames(2);
     const auto energy = [&](std::optional<double> cpu, std::optional<double> gpu, bool software) {
         WholeRun run;
         run.cpuJoules = cpu;
@@ -200,7 +200,7 @@ TEST(Summary, EnergyIsASumOnlyWhereEveryPartTells) {
 }
 
 TEST(FrameFiles, AreTablesOfOneRowAFrame) {
-    std::vector<FrameRecord> frames(2);
+    std::vector<measure::FrameRecord> frames(2);
     frames[1].frame = 1;
     frames[1].frameMs = 0.1;
     frames[1].gpuMs = 2.5;
@@ -220,4 +220,4 @@ TEST(FrameFiles, AreTablesOfOneRowAFrame) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

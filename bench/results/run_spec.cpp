@@ -12,7 +12,7 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/particles/particle_store.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace {
 
 constexpr int largestEdge = 16384;
@@ -27,7 +27,7 @@ std::string plainName(std::string_view name) {
 
 /// The message gives the memory that so many particles need, which is the reason for the limit.
 void requireFewEnough(const std::string& text) {
-    const Parameter& declared = *worldParameters().find("particles");
+    const Parameter& declared = *world::worldParameters().find("particles");
     std::int64_t count = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
     if (end != text.data() + text.size() || error != std::errc() || static_cast<double>(count) <= declared.maximum)
@@ -54,16 +54,16 @@ ImageSize parseSize(std::string_view text) {
 }
 
 ResolvedParameters resolveParameters(const MethodInfo& method, const ParameterTexts& given) {
-    ResolvedParameters resolved{ParameterValues(worldParameters()), ParameterValues(method.parameters)};
+    ResolvedParameters resolved{ParameterValues(world::worldParameters()), ParameterValues(method.parameters)};
     for (const auto& [name, text] : given) {
         if (method.parameters.find(name)) {
             resolved.method.set(name, text);
-        } else if (worldParameters().find(name)) {
+        } else if (world::worldParameters().find(name)) {
             if (name == "particles") requireFewEnough(text);
             resolved.world.set(name, text);
         } else {
             std::vector<std::string> known;
-            for (const ParameterSet* set : {&method.parameters, &worldParameters()})
+            for (const ParameterSet* set : {&method.parameters, &world::worldParameters()})
                 for (const Parameter& parameter : set->all()) known.push_back(parameter.name);
             throw unknownName("parameter of " + method.id, name, known);
         }
@@ -83,7 +83,7 @@ void requireChangesWithinRun(const RunSpec& spec) {
     const auto isChanges = [](const Parameter& parameter) { return parameter.type == ParameterType::changes; };
     if (std::ranges::none_of(method.parameters.all(), isChanges)) return;
     const ParameterValues values = resolveParameters(method, spec.parameters).method;
-    const double last = static_cast<double>(spec.frames - 1) * stepSeconds;
+    const double last = static_cast<double>(spec.frames - 1) * world::stepSeconds;
     for (const Parameter& parameter : values.declared().all()) {
         if (parameter.type != ParameterType::changes) continue;
         for (const Change& change : values.changes(parameter.name))
@@ -96,7 +96,7 @@ void requireChangesWithinRun(const RunSpec& spec) {
 }
 
 void requireFramesWithinRun(const RunSpec& spec) {
-    if (spec.metricPlan) requireMomentsWithinRun(*spec.metricPlan, spec.frames);
+    if (spec.metricPlan) reference::requireMomentsWithinRun(*spec.metricPlan, spec.frames);
     if (!spec.volumes || spec.volumes->frames.last < spec.frames) return;
     throw InputError(fmt::format("volumes: frame {} is beyond the run's end, allowed: frames 0..{} (--frames {})",
                                  spec.volumes->frames.last, spec.frames - 1, spec.frames));
@@ -106,7 +106,7 @@ bool isLaterDefault(std::string_view name, std::string_view value) {
     return name == "puffs_per_metre" && value == "0";
 }
 
-GivenDust givenDust(const RunSpec& spec) {
+world::GivenDust givenDust(const RunSpec& spec) {
     return {spec.dust, spec.dustColumns, spec.warmup, spec.frames};
 }
 
@@ -122,10 +122,10 @@ std::string canonicalKey(const RunSpec& spec) {
                        syncs.wordOf(spec.sync), spec.imagesEvery, spec.repetition);
     if (!spec.timed) key += "times=0\n";
     if (spec.volumes) {
-        const VolumeSettings& volumes = *spec.volumes;
+        const exports::VolumeSettings& volumes = *spec.volumes;
         key += fmt::format("volumes={}\nformats={}\nresolution={}\nregion={}\n", volumes.frames.text(),
-                           formatsText(volumes.formats), volumes.resolution,
-                           volumes.region ? regionText(*volumes.region) : "");
+                           exports::formatsText(volumes.formats), volumes.resolution,
+                           volumes.region ? exports::regionText(*volumes.region) : "");
         for (const auto& [id, word] : volumes.namedOptions()) key += fmt::format("{}={}\n", id, word);
     }
     if (spec.metricPlan)
@@ -154,7 +154,7 @@ std::vector<std::string> configurationOf(const RunSpec& spec) {
 std::string runId(const RunSpec& spec) {
     const std::string drive = spec.drive.empty() ? "" : fmt::format("-{}", plainName(spec.drive));
     return fmt::format("{}-{}{}-r{}-{}", spec.method, plainName(spec.scene), drive, spec.repetition,
-                       sha256(canonicalKey(spec)).substr(0, 12));
+                       measure::sha256(canonicalKey(spec)).substr(0, 12));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

@@ -15,7 +15,7 @@
 #include "methods/contract/method.h"
 #include "methods/contract/parameters.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 /// When to wait for the GPU: every frame, every stage, or only while two frames are in flight.
 enum class Sync { frame, stage, none };
@@ -51,11 +51,11 @@ struct RunSpec {
     std::uint64_t seed = 1;
     int threads = 0;  ///< 0: one per core
     Sync sync = Sync::frame;
-    std::int64_t imagesEvery = 0;           ///< 0: no images
-    std::optional<VolumeSettings> volumes;  ///< volume export; empty: none
-    std::optional<MetricPlan> metricPlan;   ///< frames that get metrics; empty: none
-    int repetition = 1;                     ///< counts from 1
-    bool timed = true;                      ///< false: runs may overlap, and no times are kept
+    std::int64_t imagesEvery = 0;                     ///< 0: no images
+    std::optional<exports::VolumeSettings> volumes;   ///< volume export; empty: none
+    std::optional<reference::MetricPlan> metricPlan;  ///< frames that get metrics; empty: none
+    int repetition = 1;                               ///< counts from 1
+    bool timed = true;                                ///< false: runs may overlap, and no times are kept
 };
 
 /// Throws InputError if a volume or metric is requested for a frame that the run does not record.
@@ -64,7 +64,7 @@ void requireFramesWithinRun(const RunSpec& spec);
 /// so that they still name those results.
 [[nodiscard]] bool isLaterDefault(std::string_view name, std::string_view value);
 /// The dust for World::useDust.
-[[nodiscard]] GivenDust givenDust(const RunSpec& spec);
+[[nodiscard]] world::GivenDust givenDust(const RunSpec& spec);
 /// Throws InputError if a parameter changes after the last frame.
 void requireChangesWithinRun(const RunSpec& spec);
 
@@ -90,4 +90,4 @@ struct ResolvedParameters {
 /// `billboard-plain-r1-0f3a9b5c2d1e`: a readable prefix and the first 12 digits of the key's SHA-256.
 [[nodiscard]] std::string runId(const RunSpec& spec);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

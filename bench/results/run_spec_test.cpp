@@ -9,7 +9,7 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/testing/test_input_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace {
 
 MethodInfo haze() {
@@ -51,7 +51,7 @@ TEST(RunSpec, EveryFieldTellsRunsApart) {
     specs[14].volumes->frames = {0, 8, 4};
     specs[15].volumes->formats = {"vti", "vtp"};
     specs[16].volumes->resolution = 64;
-    specs[17].volumes->region = Box{{0, 0, 0}, {1, 2, 3}};
+    specs[17].volumes->region = exports::Box{{0, 0, 0}, {1, 2, 3}};
     specs[18].volumes->setOption("vdb_precision", "float");
     specs[19].dustOn = DustOn::cpu;
     specs[20].dustOn = DustOn::gpu;
@@ -82,7 +82,7 @@ TEST(RunSpec, IdIsThatOfBuildsWithoutALaterParameter) {
     EXPECT_EQ(runId(today), runId(before));
     today.parameters["puffs_per_metre"] = "2.5";
     EXPECT_NE(runId(today), runId(before));
-    EXPECT_TRUE(isLaterDefault("puffs_per_metre", worldParameters().find("puffs_per_metre")->initial));
+    EXPECT_TRUE(isLaterDefault("puffs_per_metre", world::worldParameters().find("puffs_per_metre")->initial));
 }
 
 TEST(RunSpec, IdIsAReadablePlainFolderName) {
@@ -98,7 +98,7 @@ TEST(RunSpec, UnknownParameterNamesTheNearestOfMethodAndWorld) {
                     (void)resolveParameters(haze(), {{"thicknes", "1"}});
                 }),
                 testing::HasSubstr("did you mean 'thickness'"));
-    const std::string worlds = worldParameters().all().front().name;
+    const std::string worlds = world::worldParameters().all().front().name;
     EXPECT_THAT(inputError([&] {
                     (void)resolveParameters(haze(), {{worlds + "x", "1"}});
                 }),
@@ -115,7 +115,7 @@ TEST(RunSpec, ValueOutOfRangeSaysTheRange) {
 TEST(RunSpec, NoMethodRedeclaresAParameterOfTheWorld) {
     for (const MethodInfo& method : methods())
         for (const Parameter& parameter : method.parameters.all())
-            EXPECT_EQ(worldParameters().find(parameter.name), nullptr) << method.id << ": " << parameter.name;
+            EXPECT_EQ(world::worldParameters().find(parameter.name), nullptr) << method.id << ": " << parameter.name;
 }
 
 TEST(RunSpec, SizeIsWidthByHeight) {
@@ -132,4 +132,4 @@ TEST(RunSpec, SyncIsOneOfThree) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

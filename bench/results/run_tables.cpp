@@ -10,7 +10,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace fs = std::filesystem;
 namespace {
 
@@ -130,4 +130,4 @@ void addRunTable(const fs::path& folder, StoredRuns& runs, std::vector<std::stri
     }
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

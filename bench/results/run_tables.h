@@ -11,7 +11,7 @@
 
 #include "bench/results/stored_run.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 /// True if the folder contains a summary.csv and no folder `runs`.
 [[nodiscard]] bool holdsTablesAlone(const std::filesystem::path& folder);
@@ -30,4 +30,4 @@ namespace dustbench::bench {
 /// Adds what `folder`/runs.csv says of these runs; nothing without this file. Damage is a sentence in `problems`.
 void addRunTable(const std::filesystem::path& folder, StoredRuns& runs, std::vector<std::string>& problems);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

@@ -8,7 +8,7 @@
 #include "bench/results/temporary_folder.h"
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace {
 
 using testing::AllOf;
@@ -128,4 +128,4 @@ TEST(RunTable, MayBeMissingOrDamaged) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

@@ -21,7 +21,7 @@
 #include "methods/kit/files/csv.h"
 #include "source_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -92,9 +92,9 @@ TEST(Schema, DefinesEveryColumnOfEveryTable) {
     expectDefined("frames.csv", headerOf(framesCsv({})));
     expectDefined("stages.csv", headerOf(stagesCsv({})));
     const auto isMetric = [](const std::string& name) {
-        return std::ranges::find(metrics(), name, &Metric::column) != metrics().end();
+        return std::ranges::find(measure::metrics(), name, &measure::Metric::column) != measure::metrics().end();
     };
-    Names ofFrames = headerOf(metricsCsv(RunMetrics()));
+    Names ofFrames = headerOf(reference::metricsCsv(reference::RunMetrics()));
     std::erase_if(ofFrames, [&](const std::string& name) { return isMetric(name) && name != "popping"; });
     expectDefined("metrics.csv", ofFrames);
     Names summary = columnsBeforeParameters();
@@ -107,14 +107,14 @@ TEST(Schema, DefinesEveryColumnOfEveryTable) {
     expectDefined("summary.csv", summary);
 }
 
-std::string overRunText(OverRun overRun) {
+std::string overRunText(measure::OverRun overRun) {
     switch (overRun) {
-        case OverRun::mean:
+        case measure::OverRun::mean:
             return "mean over the compared frames in which it is defined";
-        case OverRun::all:
+        case measure::OverRun::all:
             return "1 if it is 1 in all compared frames";
-        case OverRun::pairs:
-        case OverRun::whole:
+        case measure::OverRun::pairs:
+        case measure::OverRun::whole:
             return "over the pairs of consecutive frames among the last 31";
     }
     return {};
@@ -147,12 +147,12 @@ std::string rowOf(std::initializer_list<std::string_view> cells) {
 }
 
 TEST(MetricDocuments, HaveARowForEachMetricAsItIsDeclared) {
-    const auto quoted = [](const Metric& metric) { return fmt::format("`{}`", metric.column); };
+    const auto quoted = [](const measure::Metric& metric) { return fmt::format("`{}`", metric.column); };
     std::string definitions, columns;
-    for (const Metric& metric : metrics()) {
+    for (const measure::Metric& metric : measure::metrics()) {
         EXPECT_EQ(std::ranges::count(columnsAfterParameters(), metric.column), 1) << metric.column << ": see its round";
         definitions += rowOf({quoted(metric), metric.definition, metric.range, metric.perfect, metric.unit,
-                              referenceOf(metric), metric.emptyWhen, metric.source});
+                              measure::referenceOf(metric), metric.emptyWhen, metric.source});
         columns += rowOf({quoted(metric), metric.unit, metric.title, overRunText(metric.overRun)});
     }
     expectRows("METRICS.md", "| Id | Definition | Range | Perfect | Unit | Reference | Empty when | Source |",
@@ -162,7 +162,7 @@ TEST(MetricDocuments, HaveARowForEachMetricAsItIsDeclared) {
 
 TEST(ExporterDocuments, HaveARowForEachFormatAsItIsDeclared) {
     std::string rows;
-    for (const Exporter& exporter : exporters())
+    for (const exports::Exporter& exporter : exports::exporters())
         rows += rowOf({fmt::format("`{}`", exporter.id), exporter.contents, exporter.programs});
     expectRows("guide/paraview-blender.md", "| Format | Contents | For |", rows);
 }
@@ -197,4 +197,4 @@ TEST(Schema, DefinesEveryFieldOfARun) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

@@ -6,7 +6,7 @@
 
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace {
 
 /// The characters that a backslash escapes within double quotes.
@@ -81,4 +81,4 @@ std::vector<std::string> shellWords(std::string_view line) {
     return Splitter(line).words();
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

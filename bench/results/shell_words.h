@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 /// The text as one word, quoted if necessary.
 [[nodiscard]] std::string shellQuoted(const std::string& text);
@@ -14,4 +14,4 @@ namespace dustbench::bench {
 /// the line. Variables and other expansions are not expanded. Throws InputError for a quote that is not closed.
 [[nodiscard]] std::vector<std::string> shellWords(std::string_view line);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

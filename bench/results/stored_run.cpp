@@ -15,7 +15,7 @@
 #include "methods/kit/files/limits.h"
 #include "methods/kit/files/whole_text.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 namespace fs = std::filesystem;
 namespace {
 
@@ -134,7 +134,8 @@ StoredRun readRunFile(const std::filesystem::path& file) {
                 run.searches.push_back({textOf(search["path"]), textOf(search["names_sha256"])});
         if (array ignored; json["provenance"]["ignored"].get(ignored) == simdjson::SUCCESS)
             for (const element each : ignored) {
-                IgnoredParts& parts = run.ignored.emplace_back(IgnoredParts{textOf(each["file"]), {}});
+                measure::IgnoredParts& parts =
+                    run.ignored.emplace_back(measure::IgnoredParts{textOf(each["file"]), {}});
                 for (const element part : each["parts"].get_array()) parts.parts.push_back(shortened(textOf(part)));
             }
         run.outputs = readOutputs(json);
@@ -199,4 +200,4 @@ StoredRuns readStoredRuns(const fs::path& folder) {
     return runs;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

@@ -12,7 +12,7 @@
 
 #include "bench/results/run_record.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 struct StoredRun {
     std::string runId;
@@ -24,9 +24,9 @@ struct StoredRun {
     std::string stateHash{}, methodHash{};  ///< empty if the run ended before, or has none
     /// By field: `cpu`, `build_type`, `key` …, without the inputs.
     std::map<std::string, std::string, std::less<>> provenance{};
-    std::vector<InputHash> inputs{};
-    std::vector<InputHash> searches{};    ///< none in results from older builds
-    std::vector<IgnoredParts> ignored{};  ///< none in results from older builds
+    std::vector<measure::InputHash> inputs{};
+    std::vector<measure::InputHash> searches{};    ///< none in results from older builds
+    std::vector<measure::IgnoredParts> ignored{};  ///< none in results from older builds
     /// Empty in results from older builds, which did not record them: changes to their files cannot be detected.
     std::optional<std::vector<OutputFile>> outputs{};
 };
@@ -59,4 +59,4 @@ void requireSoundCells(const StoredRun& run);
 /// with the folder or file if it is not a results folder, or if a run in it cannot be read.
 [[nodiscard]] StoredRuns readStoredRuns(const std::filesystem::path& folder);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

@@ -14,23 +14,24 @@
 #include "bench/results/method_facts.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 using files::csvCell;
 using files::csvNumber;
 
 namespace {
 
-std::vector<double> columnOf(std::span<const FrameRecord> frames, const std::function<double(const FrameRecord&)>& of) {
+std::vector<double> columnOf(std::span<const measure::FrameRecord> frames,
+                             const std::function<double(const measure::FrameRecord&)>& of) {
     std::vector<double> values;
     values.reserve(frames.size());
-    for (const FrameRecord& frame : frames) values.push_back(of(frame));
+    for (const measure::FrameRecord& frame : frames) values.push_back(of(frame));
     return values;
 }
 
-std::int64_t largest(std::span<const FrameRecord> frames, std::int64_t FrameRecord::*member) {
+std::int64_t largest(std::span<const measure::FrameRecord> frames, std::int64_t measure::FrameRecord::*member) {
     std::int64_t value = 0;
-    for (const FrameRecord& frame : frames) value = std::max(value, frame.*member);
+    for (const measure::FrameRecord& frame : frames) value = std::max(value, frame.*member);
     return value;
 }
 
@@ -41,11 +42,11 @@ bool hasShare(std::span<const double> frames, double share) {
 
 /// The time that `share` of the frames exceed; NaN for too few frames.
 double upperPercentile(std::span<const double> frameMs, double share) {
-    return hasShare(frameMs, share) ? quantile(frameMs, 1 - share) : std::numeric_limits<double>::quiet_NaN();
+    return hasShare(frameMs, share) ? measure::quantile(frameMs, 1 - share) : std::numeric_limits<double>::quiet_NaN();
 }
 
 double slowestFps(std::span<const double> frameMs, double share) {
-    return hasShare(frameMs, share) ? lowFps(frameMs, share) : std::numeric_limits<double>::quiet_NaN();
+    return hasShare(frameMs, share) ? measure::lowFps(frameMs, share) : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -65,11 +66,11 @@ const std::vector<std::string>& columnsAfterParameters() {
         };
         int round = 1;
         const auto addMetrics = [&] {
-            std::vector<Metric> ofRound = metrics();
-            std::erase_if(ofRound, [&](const Metric& metric) { return metric.round != round; });
+            std::vector<measure::Metric> ofRound = measure::metrics();
+            std::erase_if(ofRound, [&](const measure::Metric& metric) { return metric.round != round; });
             std::ranges::sort(ofRound, {},
-                              [](const Metric& metric) { return std::tuple(metric.place, metric.column); });
-            for (const Metric& metric : ofRound) list.emplace_back(metric.column);
+                              [](const measure::Metric& metric) { return std::tuple(metric.place, metric.column); });
+            for (const measure::Metric& metric : ofRound) list.emplace_back(metric.column);
             ++round;
         };
         add({"frames", "fps_avg", "frame_ms_median", "frame_ms_p95", "frame_ms_p99", "frame_ms_max", "fps_1pct_low"});
@@ -126,37 +127,34 @@ Columns identityColumns(const RunRecord& record, int threads) {
             {"threads", std::int64_t{threads}}};
 }
 
-Columns measuredColumns(std::span<const FrameRecord> frames, const WholeRun& run) {
-    const auto frameMs = columnOf(frames, [](const FrameRecord& frame) { return frame.frameMs; });
-    Columns columns{{"frames", static_cast<std::int64_t>(frames.size())},
-                    {"fps_avg", averageFps(frameMs)},
-                    {"frame_ms_median", median(frameMs)},
-                    {"frame_ms_p95", upperPercentile(frameMs, 0.05)},
-                    {"frame_ms_p99", upperPercentile(frameMs, 0.01)},
-                    {"frame_ms_max", maximum(frameMs)},
-                    {"fps_1pct_low", slowestFps(frameMs, 0.01)},
-                    {"frame_ms_p999", upperPercentile(frameMs, 0.001)},
-                    {"fps_01pct_low", slowestFps(frameMs, 0.001)},
-                    {"frame_ms_min", minimum(frameMs)}};
+Columns measuredColumns(std::span<const measure::FrameRecord> frames, const WholeRun& run) {
+    const auto frameMs = columnOf(frames, [](const measure::FrameRecord& frame) { return frame.frameMs; });
+    Columns columns{
+        {"frames", static_cast<std::int64_t>(frames.size())}, {"fps_avg", measure::averageFps(frameMs)},
+        {"frame_ms_median", measure::median(frameMs)},        {"frame_ms_p95", upperPercentile(frameMs, 0.05)},
+        {"frame_ms_p99", upperPercentile(frameMs, 0.01)},     {"frame_ms_max", measure::maximum(frameMs)},
+        {"fps_1pct_low", slowestFps(frameMs, 0.01)},          {"frame_ms_p999", upperPercentile(frameMs, 0.001)},
+        {"fps_01pct_low", slowestFps(frameMs, 0.001)},        {"frame_ms_min", measure::minimum(frameMs)}};
     for (std::size_t stage = 0; stage < stageNames.size(); ++stage)
-        columns.emplace_back(
-            std::string(stageNames[stage]) + "_ms_median",
-            median(columnOf(frames, [stage](const FrameRecord& frame) { return frame.stageMs[stage]; })));
-    columns.emplace_back("cpu_bytes", largest(frames, &FrameRecord::cpuBytes));
-    columns.emplace_back("gpu_bytes", largest(frames, &FrameRecord::gpuBytes));
+        columns.emplace_back(std::string(stageNames[stage]) + "_ms_median",
+                             measure::median(columnOf(
+                                 frames, [stage](const measure::FrameRecord& frame) { return frame.stageMs[stage]; })));
+    columns.emplace_back("cpu_bytes", largest(frames, &measure::FrameRecord::cpuBytes));
+    columns.emplace_back("gpu_bytes", largest(frames, &measure::FrameRecord::gpuBytes));
     columns.emplace_back("rss_peak_bytes", run.peakResidentBytes);
-    columns.emplace_back(
-        "particles_median",
-        median(columnOf(frames, [](const FrameRecord& frame) { return static_cast<double>(frame.particles); })));
-    columns.emplace_back(
-        "primitives_median",
-        median(columnOf(frames, [](const FrameRecord& frame) { return static_cast<double>(frame.primitives); })));
+    columns.emplace_back("particles_median", measure::median(columnOf(frames, [](const measure::FrameRecord& frame) {
+                             return static_cast<double>(frame.particles);
+                         })));
+    columns.emplace_back("primitives_median", measure::median(columnOf(frames, [](const measure::FrameRecord& frame) {
+                             return static_cast<double>(frame.primitives);
+                         })));
     std::vector<double> gpuMs;
-    for (const FrameRecord& frame : frames)
+    for (const measure::FrameRecord& frame : frames)
         if (frame.gpuMs) gpuMs.push_back(*frame.gpuMs);
-    columns.emplace_back("gpu_ms_median", median(gpuMs));
-    columns.emplace_back("harness_us_median",
-                         median(columnOf(frames, [](const FrameRecord& frame) { return frame.harnessMs() * 1000; })));
+    columns.emplace_back("gpu_ms_median", measure::median(gpuMs));
+    columns.emplace_back(
+        "harness_us_median",
+        measure::median(columnOf(frames, [](const measure::FrameRecord& frame) { return frame.harnessMs() * 1000; })));
     const auto add = [&columns](const char* name, const auto& value) {
         if (value) columns.emplace_back(name, *value);
     };
@@ -178,12 +176,12 @@ Columns measuredColumns(std::span<const FrameRecord> frames, const WholeRun& run
     return columns;
 }
 
-std::string framesCsv(std::span<const FrameRecord> frames) {
+std::string framesCsv(std::span<const measure::FrameRecord> frames) {
     std::string text = "frame,time_s,frame_ms";
     const auto out = std::back_inserter(text);
     for (const std::string_view stage : stageNames) fmt::format_to(out, ",{}_ms", stage);
     text += ",gpu_ms,particles,primitives,cpu_bytes,gpu_bytes,rss_bytes\n";
-    for (const FrameRecord& frame : frames) {
+    for (const measure::FrameRecord& frame : frames) {
         fmt::format_to(out, "{},{},{}", frame.frame, csvNumber(frame.timeSeconds), csvNumber(frame.frameMs));
         for (const double ms : frame.stageMs) fmt::format_to(out, ",{}", csvNumber(ms));
         fmt::format_to(out, ",{}", frame.gpuMs ? csvNumber(*frame.gpuMs) : "");
@@ -193,14 +191,14 @@ std::string framesCsv(std::span<const FrameRecord> frames) {
     return text;
 }
 
-std::string stagesCsv(std::span<const FrameRecord> frames) {
+std::string stagesCsv(std::span<const measure::FrameRecord> frames) {
     std::string text = "frame,stage,detail,ms\n";
-    for (const FrameRecord& frame : frames)
-        for (const FrameRecord::Detail& detail : frame.details)
+    for (const measure::FrameRecord& frame : frames)
+        for (const measure::FrameRecord::Detail& detail : frame.details)
             fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", frame.frame,
                            stageNames[static_cast<std::size_t>(detail.stage)], csvCell(detail.name),
                            csvNumber(detail.ms));
     return text;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

@@ -12,7 +12,7 @@
 #include "bench/measure/frame_record.h"
 #include "bench/results/run_record.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 /// The columns of summary.csv before and after the parameters (`p.…`), in order.
 [[nodiscard]] const std::vector<std::string>& columnsBeforeParameters();
@@ -38,12 +38,12 @@ struct WholeRun {
 };
 
 /// The columns computed from the frames and the run as a whole.
-[[nodiscard]] Columns measuredColumns(std::span<const FrameRecord> frames, const WholeRun& run);
+[[nodiscard]] Columns measuredColumns(std::span<const measure::FrameRecord> frames, const WholeRun& run);
 
 /// The text of frames.csv: one row per recorded frame.
-[[nodiscard]] std::string framesCsv(std::span<const FrameRecord> frames);
+[[nodiscard]] std::string framesCsv(std::span<const measure::FrameRecord> frames);
 
 /// The text of stages.csv: `frame,stage,detail,ms`, one row per frame and finer stage.
-[[nodiscard]] std::string stagesCsv(std::span<const FrameRecord> frames);
+[[nodiscard]] std::string stagesCsv(std::span<const measure::FrameRecord> frames);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

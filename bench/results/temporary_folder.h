@@ -8,7 +8,7 @@
 
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::results {
 
 /// Removed with all its contents on destruction. Throws InputError if it cannot be created.
 class TemporaryFolder {
@@ -30,4 +30,4 @@ class TemporaryFolder {
     std::filesystem::path path_;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::results

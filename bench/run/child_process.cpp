@@ -22,7 +22,7 @@
 #include "bench/export/whole_file.h"
 #include "methods/kit/files/machine_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -51,7 +51,7 @@ class Descriptor {
     int value_;
 };
 
-void setLimits(const ResourceLimits& limits) {
+void setLimits(const suite::ResourceLimits& limits) {
     const auto set = [](auto resource, std::int64_t value, std::int64_t grace) {
         const rlimit limit{static_cast<rlim_t>(value), static_cast<rlim_t>(value + grace)};
         if (value > 0) setrlimit(resource, &limit);
@@ -61,7 +61,8 @@ void setLimits(const ResourceLimits& limits) {
 }
 
 /// Runs between fork and exec: only async-signal-safe calls.
-[[noreturn]] void becomeCommand(char* const* argv, int output, int errors, pid_t parent, const ResourceLimits& limits) {
+[[noreturn]] void becomeCommand(char* const* argv, int output, int errors, pid_t parent,
+                                const suite::ResourceLimits& limits) {
     setpgid(0, 0);  // Ctrl-C reaches only the parent, which decides
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(127);
@@ -340,4 +341,4 @@ std::string BoundedLog::lastLine() const {
     return tail_.substr(first, std::min<std::size_t>(last + 1 - first, 500));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

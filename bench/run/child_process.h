@@ -18,7 +18,7 @@
 
 #include "bench/suite/resource_limits.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 
 struct ChildOutcome {
     enum class End { exited, killedBySignal, timedOut, interrupted };
@@ -39,7 +39,7 @@ struct ChildCommand {
     std::function<void(std::string_view)> onLine;
     /// Called several times a second; returning true kills the child.
     std::function<bool()> interrupted;
-    ResourceLimits limits{};
+    suite::ResourceLimits limits{};
 };
 
 /// A child process, which may still be running. Several can run at a time.
@@ -91,4 +91,4 @@ class BoundedLog {
     std::string tail_;  ///< the last bytes received, up to twice `tailBytes`
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

@@ -14,7 +14,7 @@
 #include <iterator>
 #include <thread>
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace {
 
 using End = ChildOutcome::End;
@@ -159,5 +159,4 @@ TEST(ChildProcess, DoesNotOutliveItsParent) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

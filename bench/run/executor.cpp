@@ -19,29 +19,29 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/machine_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace fs = std::filesystem;
 namespace {
 
-bool isFailure(RunStatus status) {
-    return status == RunStatus::failed || status == RunStatus::timeout;
+bool isFailure(results::RunStatus status) {
+    return status == results::RunStatus::failed || status == results::RunStatus::timeout;
 }
 
 /// Space to keep free for tables and logs.
 constexpr std::uint64_t reserveBytes = 16 << 20;
 
-void requireRoom(const ResultsFolder& results, std::uint64_t bytes) {
-    const std::uint64_t free = freeBytes(results.path());
+void requireRoom(const results::ResultsFolder& results, std::uint64_t bytes) {
+    const std::uint64_t free = results::freeBytes(results.path());
     if (free < bytes)
         throw files::MachineError(
             fmt::format("output '{}' cannot be written: the disk has {} free and the next run may "
                         "need {}",
-                        results.path().string(), bytesText(free), bytesText(bytes)));
+                        results.path().string(), results::bytesText(free), results::bytesText(bytes)));
 }
 
 /// Writes a file of one MiB: the only check for quotas and free inodes that works on every file system.
 void requireWritable(const fs::path& folder) {
-    writeWhole(folder / "probe", std::string(std::size_t{1} << 20, 'x'));
+    exports::writeWhole(folder / "probe", std::string(std::size_t{1} << 20, 'x'));
     fs::remove(folder / "probe");
 }
 
@@ -49,17 +49,18 @@ void requireWritable(const fs::path& folder) {
 constexpr std::string_view leftOut = "left out by the suite: ";
 
 /// True if the suite excluded the run when it was stored and includes it now.
-bool isWantedAgain(const PlannedRun& run, const StoredRun& stored) {
-    return run.skip.empty() && stored.status == RunStatus::skipped && stored.reason.starts_with(leftOut);
+bool isWantedAgain(const suite::PlannedRun& run, const results::StoredRun& stored) {
+    return run.skip.empty() && stored.status == results::RunStatus::skipped && stored.reason.starts_with(leftOut);
 }
 
 /// The runs of the plan that must be done; counts the others in `result`.
-std::vector<const PlannedRun*> chooseRuns(const std::vector<PlannedRun>& plan, const ResultsFolder& results,
-                                          const ExecutionOptions& options, ExecutionResult& result) {
-    Freshness freshness;
-    std::vector<const PlannedRun*> toDo;
-    for (const PlannedRun& run : plan) {
-        const auto found = results.runs().find(runId(run.spec));
+std::vector<const suite::PlannedRun*> chooseRuns(const std::vector<suite::PlannedRun>& plan,
+                                                 const results::ResultsFolder& results, const ExecutionOptions& options,
+                                                 ExecutionResult& result) {
+    results::Freshness freshness;
+    std::vector<const suite::PlannedRun*> toDo;
+    for (const suite::PlannedRun& run : plan) {
+        const auto found = results.runs().find(results::runId(run.spec));
         if (found == results.runs().end() || options.force || isWantedAgain(run, found->second) ||
             (options.retryFailed && isFailure(found->second.status))) {
             toDo.push_back(&run);
@@ -90,23 +91,24 @@ bool coolDown(const ExecutionOptions& options, ExecutionListener& listener) {
 }
 
 /// Stores a run without results: the reason and the log.
-void keepReason(const fs::path& folder, const RunSpec& spec, RunStatus status, const std::string& reason,
-                const ExecutionOptions& options) {
+void keepReason(const fs::path& folder, const results::RunSpec& spec, results::RunStatus status,
+                const std::string& reason, const ExecutionOptions& options) {
     for (const auto& entry : fs::directory_iterator(folder))
         if (entry.path().filename() != "log.txt") fs::remove_all(entry.path());
-    RunRecord record;
+    results::RunRecord record;
     record.spec = spec;
     record.drive = spec.drive;
     record.status = status;
     record.reason = reason;
     record.outputs.emplace();
-    record.provenance = startProvenance(options.argv);
-    record.summary = identityColumns(record, spec.threads == 0 ? record.provenance.machine.cores : spec.threads);
-    writeWhole(folder / "run.json", toJson(record));
+    record.provenance = measure::startProvenance(options.argv);
+    record.summary =
+        results::identityColumns(record, spec.threads == 0 ? record.provenance.machine.cores : spec.threads);
+    exports::writeWhole(folder / "run.json", results::toJson(record));
 }
 
 /// True if memory ran out below the run's own limit.
-bool exceedsMemoryLimit(const RunError& error, const ResourceLimits& limits) {
+bool exceedsMemoryLimit(const RunError& error, const suite::ResourceLimits& limits) {
     return error.kind == RunError::Kind::memory && limits.memoryMegabytes > 0;
 }
 
@@ -118,7 +120,8 @@ void requireOtherRunsPossible(const RunError& error, const ExecutionOptions& opt
         throw files::MachineError(error.message);
 }
 
-std::string reasonOf(const ChildOutcome& outcome, const std::optional<RunError>& error, const ResourceLimits& limits) {
+std::string reasonOf(const ChildOutcome& outcome, const std::optional<RunError>& error,
+                     const suite::ResourceLimits& limits) {
     if (error && exceedsMemoryLimit(*error, limits))
         return fmt::format("exceeds the memory limit of {} MB (memory_limit_mb)", limits.memoryMegabytes);
     if (outcome.end == ChildOutcome::End::killedBySignal && outcome.code == SIGXCPU && limits.cpuSeconds > 0)
@@ -130,7 +133,7 @@ std::string reasonOf(const ChildOutcome& outcome, const std::optional<RunError>&
 std::string faultOf(const fs::path& folder, const std::string& id) {
     if (!fs::exists(folder / "run.json")) return "ended without a result";
     try {
-        const std::string got = readRunFile(folder / "run.json").runId;
+        const std::string got = results::readRunFile(folder / "run.json").runId;
         return got == id ? "" : fmt::format("wrote the result of another run, '{}'", got);
     } catch (const InputError& error) {
         return fmt::format("wrote a result that cannot be read: {}", error.what());
@@ -143,10 +146,10 @@ class RunInProgress {
     using Clock = std::chrono::steady_clock;
 
     /// `position`: in the list of runs to do.
-    RunInProgress(const PlannedRun& run, std::size_t position, ResultsFolder& results, const ExecutionOptions& options,
-                  ExecutionListener& listener)
-        : run_(run), position_(position), id_(runId(run.spec)), results_(results), options_(options) {
-        requireRoom(results, maximumBytesOf(run.spec) + reserveBytes);
+    RunInProgress(const suite::PlannedRun& run, std::size_t position, results::ResultsFolder& results,
+                  const ExecutionOptions& options, ExecutionListener& listener)
+        : run_(run), position_(position), id_(results::runId(run.spec)), results_(results), options_(options) {
+        requireRoom(results, results::maximumBytesOf(run.spec) + reserveBytes);
         folder_ = results.beginRun(id_);
         try {
             start(listener);
@@ -162,13 +165,13 @@ class RunInProgress {
     RunInProgress(const RunInProgress&) = delete;
     RunInProgress& operator=(const RunInProgress&) = delete;
 
-    [[nodiscard]] const PlannedRun& run() const { return run_; }
+    [[nodiscard]] const suite::PlannedRun& run() const { return run_; }
     [[nodiscard]] std::size_t position() const { return position_; }
     [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
     /// True once the process has ended.
     [[nodiscard]] bool advance(std::chrono::milliseconds atMost) { return !child_ || child_->advance(atMost); }
     /// Publishes the result, or the reason why there is none. Returns nothing if the run was interrupted.
-    [[nodiscard]] std::optional<StoredRun> finish() {
+    [[nodiscard]] std::optional<results::StoredRun> finish() {
         if (child_ && child_->outcome().end == ChildOutcome::End::interrupted) return std::nullopt;
         if (child_) keep(child_->outcome());
         results_.publish(id_);
@@ -179,10 +182,10 @@ class RunInProgress {
  private:
     void start(ExecutionListener& listener) {
         if (!run_.skip.empty()) {
-            keepReason(folder_, run_.spec, RunStatus::skipped, std::string(leftOut) + run_.skip, options_);
+            keepReason(folder_, run_.spec, results::RunStatus::skipped, std::string(leftOut) + run_.skip, options_);
             return;
         }
-        writeWhole(specFile(), specToJson(run_.spec));
+        exports::writeWhole(specFile(), results::specToJson(run_.spec));
         ChildCommand command;
         command.argv = options_.command(specFile(), folder_);
         command.log = log();
@@ -205,7 +208,8 @@ class RunInProgress {
     void keep(const ChildOutcome& outcome) {
         if (error_ && outcome.end == ChildOutcome::End::exited) requireOtherRunsPossible(*error_, options_);
 
-        if (!fs::exists(specFile())) throw cannotWrite(folder_, "it was removed while a run was being written there");
+        if (!fs::exists(specFile()))
+            throw exports::cannotWrite(folder_, "it was removed while a run was being written there");
         fs::remove(specFile());
         // A full disk is not a result of the run.
         if (!outcome.succeeded()) {
@@ -215,20 +219,20 @@ class RunInProgress {
         const std::string fault =
             outcome.succeeded() ? faultOf(folder_, id_) : reasonOf(outcome, error_, options_.limits);
         if (!fault.empty()) {
-            const RunStatus status =
-                outcome.end == ChildOutcome::End::timedOut ? RunStatus::timeout : RunStatus::failed;
+            const results::RunStatus status =
+                outcome.end == ChildOutcome::End::timedOut ? results::RunStatus::timeout : results::RunStatus::failed;
             std::string reason = fault;
-            if (status == RunStatus::timeout) reason += progress_.empty() ? "" : " (at " + progress_ + ")";
+            if (status == results::RunStatus::timeout) reason += progress_.empty() ? "" : " (at " + progress_ + ")";
             keepReason(folder_, run_.spec, status, reason, options_);
         } else if (fs::file_size(log()) == 0) {
             fs::remove(log());
         }
     }
 
-    const PlannedRun& run_;
+    const suite::PlannedRun& run_;
     std::size_t position_;
     std::string id_;
-    ResultsFolder& results_;
+    results::ResultsFolder& results_;
     const ExecutionOptions& options_;
     fs::path folder_;
     std::string progress_;           ///< last progress line of the process
@@ -241,8 +245,9 @@ class RunInProgress {
 /// Executes a list of runs, several at a time if requested.
 class Execution {
  public:
-    Execution(const std::vector<PlannedRun>& plan, const std::vector<const PlannedRun*>& toDo, ResultsFolder& results,
-              const ExecutionOptions& options, ExecutionListener& listener, ExecutionResult& result)
+    Execution(const std::vector<suite::PlannedRun>& plan, const std::vector<const suite::PlannedRun*>& toDo,
+              results::ResultsFolder& results, const ExecutionOptions& options, ExecutionListener& listener,
+              ExecutionResult& result)
         : plan_(plan),
           toDo_(toDo),
           results_(results),
@@ -267,7 +272,7 @@ class Execution {
     using Running = std::list<std::unique_ptr<RunInProgress>>;
 
     void start(int repetitions) {
-        const PlannedRun& run = *toDo_[next_];
+        const suite::PlannedRun& run = *toDo_[next_];
         listener_.started(static_cast<std::size_t>(&run - plan_.data()) + 1, plan_.size(), run, repetitions,
                           remaining_.seconds() / std::max(options_.simultaneous, 1));
         if (next_ > 0 && !coolDown(options_, listener_)) {
@@ -280,22 +285,22 @@ class Execution {
 
     Running::iterator finish(Running::iterator each) {
         RunInProgress& run = **each;
-        if (const std::optional<StoredRun> stored = run.finish()) {
+        if (const std::optional<results::StoredRun> stored = run.finish()) {
             listener_.ended(run.run(), stored->status, stored->reason);
             remaining_.ended(run.position(), run.seconds() + (run.position() > 0 ? options_.cooldownSeconds : 0));
             if (isFailure(stored->status))
                 ++result_.failed;
             else
-                ++(stored->status == RunStatus::skipped ? result_.skipped : result_.done);
+                ++(stored->status == results::RunStatus::skipped ? result_.skipped : result_.done);
         } else {
             result_.aborted = true;
         }
         return running_.erase(each);
     }
 
-    const std::vector<PlannedRun>& plan_;
-    const std::vector<const PlannedRun*>& toDo_;
-    ResultsFolder& results_;
+    const std::vector<suite::PlannedRun>& plan_;
+    const std::vector<const suite::PlannedRun*>& toDo_;
+    results::ResultsFolder& results_;
     const ExecutionOptions& options_;
     ExecutionListener& listener_;
     ExecutionResult& result_;
@@ -306,16 +311,16 @@ class Execution {
 
 }  // namespace
 
-std::vector<const PlannedRun*> runsToDo(const std::vector<PlannedRun>& plan, const ResultsFolder& results,
-                                        const ExecutionOptions& options) {
+std::vector<const suite::PlannedRun*> runsToDo(const std::vector<suite::PlannedRun>& plan,
+                                               const results::ResultsFolder& results, const ExecutionOptions& options) {
     ExecutionResult counts;
     return chooseRuns(plan, results, options, counts);
 }
 
-ExecutionResult execute(const std::vector<PlannedRun>& plan, int repetitions, ResultsFolder& results,
+ExecutionResult execute(const std::vector<suite::PlannedRun>& plan, int repetitions, results::ResultsFolder& results,
                         const ExecutionOptions& options, ExecutionListener& listener) {
     ExecutionResult result;
-    const std::vector<const PlannedRun*> toDo = chooseRuns(plan, results, options, result);
+    const std::vector<const suite::PlannedRun*> toDo = chooseRuns(plan, results, options, result);
     try {
         Execution(plan, toDo, results, options, listener, result).run(repetitions);
     } catch (const fs::filesystem_error& failure) {
@@ -325,4 +330,4 @@ ExecutionResult execute(const std::vector<PlannedRun>& plan, int repetitions, Re
     return result;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

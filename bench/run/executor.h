@@ -15,7 +15,7 @@
 #include "bench/run/run_forecast.h"
 #include "bench/suite/suite.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 
 /// Receives progress of a plan. All members do nothing unless overridden.
 class ExecutionListener {
@@ -23,11 +23,12 @@ class ExecutionListener {
     virtual ~ExecutionListener() = default;
     /// `position` counts from 1 among the `total` runs of the plan; `etaSeconds` is negative if unknown. If runs
     /// overlap, `started` and `ended` are called for each, and `progressed` for any of them.
-    virtual void started(std::size_t /*position*/, std::size_t /*total*/, const PlannedRun& /*run*/,
+    virtual void started(std::size_t /*position*/, std::size_t /*total*/, const suite::PlannedRun& /*run*/,
                          int /*repetitions*/, double /*etaSeconds*/) {}
     /// A progress line of the run: `frames 12 120`; empty about once a second while there is no output.
     virtual void progressed(std::string_view /*line*/) {}
-    virtual void ended(const PlannedRun& /*run*/, RunStatus /*status*/, const std::string& /*reason*/) {}
+    virtual void ended(const suite::PlannedRun& /*run*/, results::RunStatus /*status*/, const std::string& /*reason*/) {
+    }
 };
 
 using ChildCommandLine =
@@ -38,7 +39,7 @@ struct ExecutionOptions {
     bool retryFailed = false;   ///< re-run failed and timed-out runs
     bool redoOutdated = false;  ///< re-run results from another build or with changed input files
     double timeoutSeconds = 0;
-    ResourceLimits limits;
+    suite::ResourceLimits limits;
     double cooldownSeconds = 0;     ///< pause before each run except the first
     int simultaneous = 1;           ///< runs at a time; more than one only if no times are measured
     std::vector<std::string> argv;  ///< the user's command, for provenance
@@ -65,13 +66,15 @@ struct ExecutionResult {
 };
 
 /// The runs of the plan that `execute` would run, in order.
-[[nodiscard]] std::vector<const PlannedRun*> runsToDo(const std::vector<PlannedRun>& plan, const ResultsFolder& results,
-                                                      const ExecutionOptions& options);
+[[nodiscard]] std::vector<const suite::PlannedRun*> runsToDo(const std::vector<suite::PlannedRun>& plan,
+                                                             const results::ResultsFolder& results,
+                                                             const ExecutionOptions& options);
 
 /// Throws files::MachineError if the machine runs out of something (disk space, open files), here or in a run's
 /// process, and InputError if the folder is no longer writable. Finished runs are kept, and the same call continues
 /// once the problem is solved.
-[[nodiscard]] ExecutionResult execute(const std::vector<PlannedRun>& plan, int repetitions, ResultsFolder& results,
-                                      const ExecutionOptions& options, ExecutionListener& listener);
+[[nodiscard]] ExecutionResult execute(const std::vector<suite::PlannedRun>& plan, int repetitions,
+                                      results::ResultsFolder& results, const ExecutionOptions& options,
+                                      ExecutionListener& listener);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

@@ -23,7 +23,7 @@
 #include "methods/kit/files/machine_error.h"
 #include "methods/kit/maths/philox.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace {
 namespace fs = std::filesystem;
 
@@ -41,17 +41,17 @@ class ExecutorFaults : public testing::Test {
         fs::create_directories(folder_ / "made");
         std::ofstream(folder_ / "input") << "first";
         for (int i = 0; i < runsInPlan; ++i) {
-            PlannedRun run;
+            suite::PlannedRun run;
             run.spec.method = "haze";
             run.spec.seed = static_cast<std::uint64_t>(i);
             plan_.push_back(run);
-            RunRecord record;
+            results::RunRecord record;
             record.spec = run.spec;
-            record.provenance.build = buildFacts();
-            record.provenance.inputs = hashInputs({folder_ / "input"});
-            record.summary = identityColumns(record, 2);
-            record.outputs = {{"frames.csv", frames().size(), sha256(frames())}};
-            writeWhole(folder_ / "made" / runId(run.spec), toJson(record));
+            record.provenance.build = measure::buildFacts();
+            record.provenance.inputs = measure::hashInputs({folder_ / "input"});
+            record.summary = results::identityColumns(record, 2);
+            record.outputs = {{"frames.csv", frames().size(), measure::sha256(frames())}};
+            exports::writeWhole(folder_ / "made" / results::runId(run.spec), results::toJson(record));
         }
         options_.retryFailed = true;
         options_.command = [this](const fs::path&, const fs::path& folder) -> std::vector<std::string> {
@@ -71,7 +71,7 @@ class ExecutorFaults : public testing::Test {
     [[nodiscard]] fs::path out() const { return folder_ / "out"; }
     [[nodiscard]] fs::path pid() const { return folder_ / "pid"; }
     [[nodiscard]] ExecutionResult runAll() const {
-        ResultsFolder results(out());
+        results::ResultsFolder results(out());
         ExecutionListener quiet;
         return execute(plan_, 1, results, options_, quiet);
     }
@@ -82,9 +82,9 @@ class ExecutorFaults : public testing::Test {
         for (const auto& entry : fs::directory_iterator(out() / "runs", missing)) {
             const std::string name = entry.path().filename();
             if (name.starts_with('.')) continue;
-            const StoredRun run = readRunFile(entry.path() / "run.json");
+            const results::StoredRun run = results::readRunFile(entry.path() / "run.json");
             EXPECT_EQ(run.runId, name);
-            if (run.status != RunStatus::done) continue;
+            if (run.status != results::RunStatus::done) continue;
             EXPECT_EQ(files::CsvTable::parseFile(entry.path() / "frames.csv").rows(), std::size_t{rowsOfFrames});
             names.insert(name);
         }
@@ -92,7 +92,7 @@ class ExecutorFaults : public testing::Test {
     }
 
     fs::path folder_;
-    std::vector<PlannedRun> plan_;
+    std::vector<suite::PlannedRun> plan_;
     ExecutionOptions options_;
     std::string script_ = "echo $$ > $3; echo frame > $1/frames.csv; i=0; while [ $i -lt " +
                           std::to_string(rowsOfFrames) +
@@ -148,11 +148,11 @@ TEST_F(ExecutorFaults, FiftyKillsLoseNothingThatWasFinished) {
 
 TEST_F(ExecutorFaults, ADamagedResultIsSetAsideAndDoneAgain) {
     (void)runAll();
-    const std::string cut = runId(plan_[3].spec), foreign = runId(plan_[4].spec);
+    const std::string cut = results::runId(plan_[3].spec), foreign = results::runId(plan_[4].spec);
     fs::resize_file(out() / "runs" / cut / "run.json", 100);
     std::ofstream(out() / "runs" / foreign / "run.json") << "[]";
     {
-        const ResultsFolder results(out());
+        const results::ResultsFolder results(out());
         ASSERT_EQ(results.setAside().size(), 2u);
         EXPECT_NE(results.setAside()[0].find("run.json"), std::string::npos);
     }
@@ -164,11 +164,11 @@ TEST_F(ExecutorFaults, ADamagedResultIsSetAsideAndDoneAgain) {
 
 TEST_F(ExecutorFaults, AnAlteredOrMissingFileOfAResultDoesNotCountAsDone) {
     (void)runAll();
-    const auto tableOf = [&](std::size_t i) { return out() / "runs" / runId(plan_[i].spec) / "frames.csv"; };
+    const auto tableOf = [&](std::size_t i) { return out() / "runs" / results::runId(plan_[i].spec) / "frames.csv"; };
     fs::remove(tableOf(3));
     std::ofstream(tableOf(4), std::ios::in) << 'F';  // of the same length
     {
-        const ResultsFolder results(out());
+        const results::ResultsFolder results(out());
         EXPECT_EQ(results.runs().size(), std::size_t{runsInPlan} - 2);
         ASSERT_EQ(results.setAside().size(), 2u);
         const std::string said = results.setAside()[0] + results.setAside()[1];
@@ -183,7 +183,7 @@ TEST_F(ExecutorFaults, AnAlteredOrMissingFileOfAResultDoesNotCountAsDone) {
 TEST_F(ExecutorFaults, AKillBetweenTheRenamesOfAReplacementKeepsTheOldResult) {
     (void)runAll();
     const fs::path runs = out() / "runs";
-    const std::string id = runId(plan_[5].spec);
+    const std::string id = results::runId(plan_[5].spec);
     fs::rename(runs / id, runs / (".replaced-" + id));
     EXPECT_EQ(runAll().kept, std::size_t{runsInPlan});
     EXPECT_EQ(wholeResults().size(), std::size_t{runsInPlan});
@@ -228,23 +228,24 @@ TEST_F(ExecutorFaults, OutdatedResultsAreCountedAndDoneAgainWhenAsked) {
 }
 
 TEST(Freshness, TellsAnotherBuildFromThisOne) {
-    StoredRun run;
+    results::StoredRun run;
     run.provenance = {{"build_id", "0123"}, {"git_commit", "0123456789abcdef"}};
-    EXPECT_EQ(Freshness("0123").whyOutdated(run), "");
-    EXPECT_EQ(Freshness("4567").whyOutdated(run), "measured by another build of dustbench, commit 0123456789ab");
-    run.status = RunStatus::failed;
-    EXPECT_EQ(Freshness("4567").whyOutdated(run), "");
+    EXPECT_EQ(results::Freshness("0123").whyOutdated(run), "");
+    EXPECT_EQ(results::Freshness("4567").whyOutdated(run),
+              "measured by another build of dustbench, commit 0123456789ab");
+    run.status = results::RunStatus::failed;
+    EXPECT_EQ(results::Freshness("4567").whyOutdated(run), "");
 }
 
 TEST(RemainingTime, CountsARunAsLongAsTheOthersOfItsCell) {
-    std::vector<PlannedRun> plan(6);
+    std::vector<suite::PlannedRun> plan(6);
     for (std::size_t i = 0; i < plan.size(); ++i) {
         plan[i].spec.seed = i % 3;
         plan[i].spec.repetition = static_cast<int>(i / 3) + 1;
     }
-    std::vector<const PlannedRun*> toDo;
+    std::vector<const suite::PlannedRun*> toDo;
     toDo.reserve(plan.size());
-    for (const PlannedRun& run : plan) toDo.push_back(&run);
+    for (const suite::PlannedRun& run : plan) toDo.push_back(&run);
     RemainingTime remaining(toDo);
     EXPECT_LT(remaining.seconds(), 0);
     remaining.ended(0, 2);
@@ -257,4 +258,4 @@ TEST(RemainingTime, CountsARunAsLongAsTheOthersOfItsCell) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

@@ -17,7 +17,7 @@
 #include "methods/kit/files/csv.h"
 #include "methods/kit/files/machine_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace {
 namespace fs = std::filesystem;
 
@@ -33,20 +33,22 @@ class Executor : public testing::Test {
         fs::remove_all(folder_);
         fs::create_directories(folder_ / "made");
         for (int i = 0; i < 4; ++i) {
-            PlannedRun run;
+            suite::PlannedRun run;
             run.spec.method = "haze";
             run.spec.seed = static_cast<std::uint64_t>(i);
             run.spec.parameters["note"] = "a,b \"c\"";
             plan_.push_back(run);
-            RunRecord record;
+            results::RunRecord record;
             record.spec = run.spec;
-            record.summary = identityColumns(record, 2);
-            writeWhole(made(run), toJson(record));
+            record.summary = results::identityColumns(record, 2);
+            exports::writeWhole(made(run), results::toJson(record));
         }
     }
     void TearDown() override { fs::remove_all(folder_); }
 
-    [[nodiscard]] fs::path made(const PlannedRun& run) const { return folder_ / "made" / runId(run.spec); }
+    [[nodiscard]] fs::path made(const suite::PlannedRun& run) const {
+        return folder_ / "made" / results::runId(run.spec);
+    }
     [[nodiscard]] fs::path out() const { return folder_ / "out"; }
 
     /// `script` sees the run's folder as $1 and the finished run.json as $2.
@@ -60,7 +62,7 @@ class Executor : public testing::Test {
         return options;
     }
     [[nodiscard]] ExecutionResult runAll(const ExecutionOptions& options) {
-        ResultsFolder results(out());
+        results::ResultsFolder results(out());
         ExecutionListener quiet;
         return execute(plan_, 1, results, options, quiet);
     }
@@ -72,7 +74,7 @@ class Executor : public testing::Test {
     }
 
     fs::path folder_;
-    std::vector<PlannedRun> plan_;
+    std::vector<suite::PlannedRun> plan_;
 };
 
 constexpr const char* good = "cp \"$2\" \"$1/run.json\"";
@@ -153,8 +155,8 @@ TEST_F(Executor, KeepsEveryRunAndSummarisesThem) {
     EXPECT_EQ(table.cell(0, "status"), "done");
     EXPECT_EQ(table.cell(0, "p.note"), "a,b \"c\"");
     EXPECT_EQ(table.cell(0, "psnr_db"), "");
-    for (const PlannedRun& run : plan_) {
-        const fs::path folder = out() / "runs" / runId(run.spec);
+    for (const suite::PlannedRun& run : plan_) {
+        const fs::path folder = out() / "runs" / results::runId(run.spec);
         EXPECT_TRUE(fs::exists(folder / "run.json"));
         EXPECT_FALSE(fs::exists(folder / "spec.json"));
         EXPECT_FALSE(fs::exists(folder / "log.txt"));
@@ -163,7 +165,7 @@ TEST_F(Executor, KeepsEveryRunAndSummarisesThem) {
 
 TEST_F(Executor, ResumesWithWhatIsMissing) {
     (void)runAll(shell(good));
-    fs::remove_all(out() / "runs" / runId(plan_[2].spec));
+    fs::remove_all(out() / "runs" / results::runId(plan_[2].spec));
     const ExecutionResult again = runAll(shell(good));
     EXPECT_EQ(again.kept, 3u);
     EXPECT_EQ(again.done, 1u);
@@ -173,14 +175,14 @@ TEST_F(Executor, ResumesWithWhatIsMissing) {
 }
 
 TEST_F(Executor, ACrashIsAFailedRunAndThePlanGoesOn) {
-    const std::string crash =
-        "case $2 in *" + runId(plan_[1].spec) + ") touch $1/frames.csv; echo 'bad thing' >&2; kill -ABRT $$;; esac; ";
+    const std::string crash = "case $2 in *" + results::runId(plan_[1].spec) +
+                              ") touch $1/frames.csv; echo 'bad thing' >&2; kill -ABRT $$;; esac; ";
     const ExecutionResult result = runAll(shell(crash + good));
     EXPECT_EQ(result.failed, 1u);
     EXPECT_EQ(result.done, 3u);
-    const fs::path folder = out() / "runs" / runId(plan_[1].spec);
-    const StoredRun run = readRunFile(folder / "run.json");
-    EXPECT_EQ(run.status, RunStatus::failed);
+    const fs::path folder = out() / "runs" / results::runId(plan_[1].spec);
+    const results::StoredRun run = results::readRunFile(folder / "run.json");
+    EXPECT_EQ(run.status, results::RunStatus::failed);
     EXPECT_EQ(run.reason, "killed by SIGABRT: bad thing");
     EXPECT_TRUE(fs::exists(folder / "log.txt"));
     EXPECT_FALSE(fs::exists(folder / "frames.csv"));
@@ -196,13 +198,13 @@ TEST_F(Executor, ACrashIsAFailedRunAndThePlanGoesOn) {
 
 TEST_F(Executor, AHangIsATimeoutThatSaysHowFarItCame) {
     ExecutionOptions options =
-        shell("case $2 in *" + runId(plan_[0].spec) + ") echo frames 3 9; sleep 600;; esac; " + good);
+        shell("case $2 in *" + results::runId(plan_[0].spec) + ") echo frames 3 9; sleep 600;; esac; " + good);
     options.timeoutSeconds = 5;  // the three good runs take a few milliseconds each, even on a busy machine
     const ExecutionResult result = runAll(options);
     EXPECT_EQ(result.failed, 1u);
     EXPECT_EQ(result.done, 3u);
-    const StoredRun run = readRunFile(out() / "runs" / runId(plan_[0].spec) / "run.json");
-    EXPECT_EQ(run.status, RunStatus::timeout);
+    const results::StoredRun run = results::readRunFile(out() / "runs" / results::runId(plan_[0].spec) / "run.json");
+    EXPECT_EQ(run.status, results::RunStatus::timeout);
     EXPECT_EQ(run.reason, "not finished after 5 s (at frames 3 9)");
 }
 
@@ -232,13 +234,14 @@ TEST_F(Executor, InterruptionLeavesNothingOfTheRunInFlight) {
 
 TEST_F(Executor, AKillLosesAtMostTheRunInFlightAndTheNextCallResumes) {
     // The third run hangs after the first two are complete; then the whole process is killed.
-    const std::string hang = "case $2 in *" + runId(plan_[2].spec) + ") touch $1/frames.csv; sleep 600;; esac; ";
+    const std::string hang =
+        "case $2 in *" + results::runId(plan_[2].spec) + ") touch $1/frames.csv; sleep 600;; esac; ";
     const pid_t victim = fork();
     if (victim == 0) {
         (void)runAll(shell(hang + good));
         _exit(0);
     }
-    const fs::path half = out() / "runs" / (".unfinished-" + runId(plan_[2].spec)) / "frames.csv";
+    const fs::path half = out() / "runs" / (".unfinished-" + results::runId(plan_[2].spec)) / "frames.csv";
     for (int i = 0; i < 6'000 && !fs::exists(half); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     ASSERT_TRUE(fs::exists(half));
     kill(victim, SIGKILL);
@@ -247,7 +250,7 @@ TEST_F(Executor, AKillLosesAtMostTheRunInFlightAndTheNextCallResumes) {
     std::vector<std::string> visible;
     for (const std::string& name : entries())
         if (!name.starts_with('.')) visible.push_back(name);
-    EXPECT_THAT(visible, testing::UnorderedElementsAre(runId(plan_[0].spec), runId(plan_[1].spec)));
+    EXPECT_THAT(visible, testing::UnorderedElementsAre(results::runId(plan_[0].spec), results::runId(plan_[1].spec)));
 
     const ExecutionResult result = runAll(shell(good));
     EXPECT_EQ(result.kept, 2u);
@@ -257,14 +260,14 @@ TEST_F(Executor, AKillLosesAtMostTheRunInFlightAndTheNextCallResumes) {
 }
 
 TEST_F(Executor, TwoProgramsDoNotWriteIntoOneFolder) {
-    const ResultsFolder first(out());
-    EXPECT_THROW(ResultsFolder second(out()), InputError);
+    const results::ResultsFolder first(out());
+    EXPECT_THROW(results::ResultsFolder second(out()), InputError);
 }
 
 TEST_F(Executor, AFolderThatCannotBeMadeIsBadInput) {
     std::ofstream(folder_ / "file") << "x";
     try {
-        const ResultsFolder results(folder_ / "file" / "out");
+        const results::ResultsFolder results(folder_ / "file" / "out");
         FAIL() << "nothing thrown";
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr("cannot be written"));
@@ -272,4 +275,4 @@ TEST_F(Executor, AFolderThatCannotBeMadeIsBadInput) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

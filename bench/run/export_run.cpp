@@ -14,11 +14,11 @@
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace fs = std::filesystem;
 namespace {
 
-void requireFramesWithinDrive(const RunSpec& spec, const World& world) {
+void requireFramesWithinDrive(const results::RunSpec& spec, const world::World& world) {
     const std::int64_t last = lastFrameOfDrive(world, spec.warmup);
     if (spec.volumes->frames.last <= last) return;
     const std::string allowed =
@@ -27,32 +27,32 @@ void requireFramesWithinDrive(const RunSpec& spec, const World& world) {
                                  spec.volumes->frames.last, world.driveId(), world.driveSeconds(), allowed));
 }
 
-ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const RunProgress& progress,
-                          const std::function<bool()>& interrupted, ExportRecord& record) {
+ExportResult exportFrames(const results::RunSpec& spec, const fs::path& folder, const RunProgress& progress,
+                          const std::function<bool()>& interrupted, results::ExportRecord& record) {
     const files::InputLog read;
     const MethodInfo& info = findMethod(spec.method);
-    const ResolvedParameters parameters = resolveParameters(info, spec.parameters);
-    World world(spec.scene, spec.drive, parameters.world, spec.seed);
+    const results::ResolvedParameters parameters = results::resolveParameters(info, spec.parameters);
+    world::World world(spec.scene, spec.drive, parameters.world, spec.seed);
     world.followPath(spec.cameraPath);
-    world.useDust(givenDust(spec));
+    world.useDust(results::givenDust(spec));
     requireFramesWithinDrive(spec, world);
     if (const std::string reason = whyNotTaken(info, world.scene()); !reason.empty())
         throw InputError(fmt::format("method {} cannot show scene '{}': {}", spec.method, spec.scene, reason));
     record.drive = world.driveId();
 
-    VolumeExporter exporter(*spec.volumes, folder);
+    exports::VolumeExporter exporter(*spec.volumes, folder);
     gpu::Device device;
     record.provenance.device = device.info();
     record.provenance.dustOn = placeDust(spec, world, device);
     FrameRunner runner(spec, world, device, parameters.method, false);
-    recordInputs(world, parameters.method, read, record.provenance);
+    results::recordInputs(world, parameters.method, read, record.provenance);
 
     ExportResult result;
-    const FrameRange& frames = spec.volumes->frames;
-    const std::vector<std::string> configuration = configurationOf(spec);
+    const exports::FrameRange& frames = spec.volumes->frames;
+    const std::vector<std::string> configuration = results::configurationOf(spec);
     const auto write = [&](std::int64_t index) {
         if (!frames.contains(index)) return;
-        CollectedVolume volume;
+        exports::CollectedVolume volume;
         runner.volume(volume);
         exporter.write({index, spec.method, volume, world.scene(), world.state(), world.dust(), configuration});
         record.moments.push_back({index, world.state().timeSeconds, fmt::format("{:016x}", world.stateHash())});
@@ -63,27 +63,27 @@ ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const Run
     result.gridsDiffer = exporter.gridsDiffer();
     if (result.aborted) return result;
     for (const fs::path& series : result.series) record.series.push_back(series.filename());
-    writeWhole(folder / "export.json", toJson(record));
+    exports::writeWhole(folder / "export.json", results::toJson(record));
     return result;
 }
 
 }  // namespace
 
-std::int64_t lastFrameOfDrive(const World& world, std::int64_t warmup) {
+std::int64_t lastFrameOfDrive(const world::World& world, std::int64_t warmup) {
     // Steps end at integer multiples of their length. The preroll ends at time 0, or one step later if it is shorter
     // than a step.
-    const std::int64_t stepsOfDrive = std::llround(world.driveSeconds() / stepSeconds);
+    const std::int64_t stepsOfDrive = std::llround(world.driveSeconds() / world::stepSeconds);
     return stepsOfDrive - 1 - warmup - (stepsBeforeWarmup(world) - world.prerollSteps());
 }
 
-ExportResult exportVolumes(const RunSpec& spec, const fs::path& folder, std::vector<std::string> argv,
+ExportResult exportVolumes(const results::RunSpec& spec, const fs::path& folder, std::vector<std::string> argv,
                            const RunProgress& progress, const std::function<bool()>& interrupted) {
-    ExportRecord record;
+    results::ExportRecord record;
     record.spec = spec;
-    record.provenance = startProvenance(std::move(argv));
+    record.provenance = measure::startProvenance(std::move(argv));
     ExportResult result;
     withThreads(spec.threads, [&] { result = exportFrames(spec, folder, progress, interrupted, record); });
     return result;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

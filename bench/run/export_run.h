@@ -10,10 +10,10 @@
 #include "bench/run/measured_run.h"
 #include "bench/world/world.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 
 /// The last frame within the duration of the drive; negative if there is none.
-[[nodiscard]] std::int64_t lastFrameOfDrive(const World& world, std::int64_t warmup);
+[[nodiscard]] std::int64_t lastFrameOfDrive(const world::World& world, std::int64_t warmup);
 
 struct ExportResult {
     std::vector<std::filesystem::path> series;
@@ -24,8 +24,8 @@ struct ExportResult {
 /// Writes the volumes requested in `spec.volumes`, and export.json, into `folder`. At each exported frame the world and
 /// the method have made exactly the same steps as in `measureRun`. `interrupted` is called after every step. Throws
 /// InputError for user-correctable errors, including frames beyond the drive's end, before the folder is created.
-[[nodiscard]] ExportResult exportVolumes(const RunSpec& spec, const std::filesystem::path& folder,
+[[nodiscard]] ExportResult exportVolumes(const results::RunSpec& spec, const std::filesystem::path& folder,
                                          std::vector<std::string> argv, const RunProgress& progress,
                                          const std::function<bool()>& interrupted);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

@@ -12,13 +12,13 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace {
 
 using testing::HasSubstr;
 
 TEST(RunForecast, CountsEveryFrameOnceForWhatItNeeds) {
-    RunSpec spec;
+    results::RunSpec spec;
     spec.warmup = 10;
     spec.frames = 100;
     const FramesBegun frames{.untilFrames = 2, .perFrame = 0.1};
@@ -38,14 +38,14 @@ TEST(RunForecast, BeginsEveryKindOfFrame) {
     // missing here.
     std::map<bool, const MethodInfo*> kinds;
     for (const MethodInfo& info : methods())
-        kinds.emplace(info.create(resolveParameters(info, {}).method)->stateHash().has_value(), &info);
+        kinds.emplace(info.create(results::resolveParameters(info, {}).method)->stateHash().has_value(), &info);
     for (const auto& [hasOwnState, info] : kinds) {
-        RunSpec spec;
+        results::RunSpec spec;
         spec.method = info->id;
         spec.size = {64, 48};
         spec.warmup = 1;
         spec.frames = 40;
-        spec.parameters = canonicalParameters(*info, {{"particles", "50"}, {"preroll", "0.2"}});
+        spec.parameters = results::canonicalParameters(*info, {{"particles", "50"}, {"preroll", "0.2"}});
         spec.metricPlan.emplace();
         const TestFolder folder;
         const RunForecast forecast = forecastRun(spec, folder.path());
@@ -55,20 +55,20 @@ TEST(RunForecast, BeginsEveryKindOfFrame) {
 }
 
 TEST(ForecastByCell, MetricsCountForTheRunThatHasThem) {
-    PlannedRun cell;
+    suite::PlannedRun cell;
     cell.spec.method = "haze";
     cell.spec.metricPlan.emplace();
-    Suite suite;
+    suite::Suite suite;
     suite.cells = {cell};
     suite.repetitions = 3;
-    const std::vector<PlannedRun> plan = planRuns(suite);
+    const std::vector<suite::PlannedRun> plan = suite::planRuns(suite);
     ForecastByCell forecasts;
     EXPECT_LT(forecasts.seconds(plan[0].spec), 0);
     forecasts.set(plan[0].spec, {10, 90});
     EXPECT_DOUBLE_EQ(forecasts.seconds(plan[0].spec), 100);
     EXPECT_DOUBLE_EQ(forecasts.seconds(plan[2].spec), 10);
 
-    const std::vector<const PlannedRun*> toDo{&plan[0], &plan[1], &plan[2]};
+    const std::vector<const suite::PlannedRun*> toDo{&plan[0], &plan[1], &plan[2]};
     RemainingTime remaining(toDo, forecasts, 4);
     EXPECT_DOUBLE_EQ(remaining.seconds(), 100 + 4 + 10 + 4 + 10);
     remaining.ended(0, 120);
@@ -81,16 +81,16 @@ TEST(ForecastByCell, MetricsCountForTheRunThatHasThem) {
 class PlanForecasts : public testing::Test {
  protected:
     PlanForecasts() : results_(folder_.path()) {
-        Suite suite;
+        suite::Suite suite;
         for (int cell = 0; cell < 3; ++cell)
             for (const std::uint64_t seed : {1, 2}) {
-                PlannedRun& run = suite.cells.emplace_back();
+                suite::PlannedRun& run = suite.cells.emplace_back();
                 run.spec.method = "haze";
                 run.spec.frames = 100 + cell;
                 run.spec.seed = seed;
                 run.label = "cell=" + std::to_string(cell);
             }
-        plan_ = planRuns(suite);
+        plan_ = suite::planRuns(suite);
     }
     /// `script` sees the specification's file as $1.
     PlanForecast forecast(const std::string& script) {
@@ -101,8 +101,8 @@ class PlanForecasts : public testing::Test {
     }
 
     TestFolder folder_;
-    ResultsFolder results_;
-    std::vector<PlannedRun> plan_;
+    results::ResultsFolder results_;
+    std::vector<suite::PlannedRun> plan_;
     ExecutionOptions options_;
     ExecutionListener quiet_;
 };
@@ -135,4 +135,4 @@ TEST_F(PlanForecasts, AnInterruptionEndsIt) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

@@ -13,7 +13,7 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/draw/read_back.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace {
 
 /// Half a step of an 8-bit image. Smaller differences are invisible; the order of additions on a GPU may vary.
@@ -53,18 +53,18 @@ std::size_t brokenChannel(const glm::vec4& pixel) {
 
 }  // namespace
 
-std::int64_t stepsBeforeWarmup(const World& world) {
+std::int64_t stepsBeforeWarmup(const world::World& world) {
     return std::max<std::int64_t>(world.prerollSteps(), 1);
 }
 
-FrameRunner::FrameRunner(const RunSpec& spec, World& world, gpu::Device& device, const ParameterValues& parameters,
-                         bool useGpuTimers)
+FrameRunner::FrameRunner(const results::RunSpec& spec, world::World& world, gpu::Device& device,
+                         const ParameterValues& parameters, bool useGpuTimers)
     : spec_(spec),
       world_(world),
       device_(device),
       host_(world, device, findMethod(spec.method), parameters, spec.size.width, spec.size.height),
       useGpuTimers_(useGpuTimers) {
-    if (spec.sync == Sync::stage) recorder_.setFence([this] { device_.finish(); });
+    if (spec.sync == results::Sync::stage) recorder_.setFence([this] { device_.finish(); });
     records_.reserve(static_cast<std::size_t>(spec.frames));
 }
 
@@ -104,7 +104,7 @@ void FrameRunner::verifiedStep(std::int64_t index) {
     const pictures::Image fastLayer = host_.layer(), fastResult = host_.result();
 
     device_.finish();
-    StageRecorder fencing;
+    measure::StageRecorder fencing;
     fencing.setFence([this] { device_.finish(); });
     const StageClock fenced(&fencing);
     host_.draw(host_.see(index, fenced));
@@ -118,7 +118,7 @@ void FrameRunner::verifiedStep(std::int64_t index) {
 }
 
 void FrameRunner::waitForGpu() {
-    if (spec_.sync != Sync::none) {
+    if (spec_.sync != results::Sync::none) {
         device_.finish();
         return;
     }
@@ -136,7 +136,7 @@ void FrameRunner::frame(std::int64_t index) {
     gpu::TimerQuery gpuTime = timeGpu ? gpu::TimerQuery(device_) : gpu::TimerQuery();
 
     // Overlapping frames are timed without a gap; otherwise GPU work would fall into time that belongs to no frame.
-    const std::int64_t start = lastEndNs_ != 0 ? lastEndNs_ : steadyNow();
+    const std::int64_t start = lastEndNs_ != 0 ? lastEndNs_ : measure::steadyNow();
     {
         const auto timing = clock.measure(Stage::input);
         world_.readInput();
@@ -158,9 +158,9 @@ void FrameRunner::frame(std::int64_t index) {
         const auto timing = clock.measure(Stage::wait);
         waitForGpu();
     }
-    const std::int64_t end = steadyNow();
+    const std::int64_t end = measure::steadyNow();
 
-    if (spec_.sync == Sync::none) lastEndNs_ = end;
+    if (spec_.sync == results::Sync::none) lastEndNs_ = end;
     if (index < 0) return;
     keepRecord(index, end - start);
     host_.keepFacts(now);
@@ -169,13 +169,13 @@ void FrameRunner::frame(std::int64_t index) {
 }
 
 void FrameRunner::keepRecord(std::int64_t index, std::int64_t elapsedNs) {
-    FrameRecord record;
+    measure::FrameRecord record;
     record.frame = index;
     record.timeSeconds = world_.state().timeSeconds;
     record.frameMs = milliseconds(elapsedNs);
     for (std::size_t stage = 0; stage < stageNames.size(); ++stage)
         record.stageMs[stage] = milliseconds(recorder_.stageNs()[stage]);
-    for (const StageRecorder::Detail& detail : recorder_.details())
+    for (const measure::StageRecorder::Detail& detail : recorder_.details())
         record.details.push_back({detail.stage, std::string(detail.name), milliseconds(detail.ns)});
     if (const gpu::Buffer* const count = host_.method().primitiveCount())
         keepCount(*count, false);
@@ -188,9 +188,9 @@ void FrameRunner::keepRecord(std::int64_t index, std::int64_t elapsedNs) {
     const MemoryReport ofWorld = world_.memory();
     record.cpuBytes = bytesOf(ofWorld, &MemoryUse::cpuBytes) + host_.cpuBytes();
     record.gpuBytes = bytesOf(ofWorld, &MemoryUse::gpuBytes) + host_.gpuBytes();
-    record.rssBytes = residentBytes();
+    record.rssBytes = measure::residentBytes();
     records_.push_back(std::move(record));
-    if (spec_.sync != Sync::none) collectCounts();
+    if (spec_.sync != results::Sync::none) collectCounts();
 }
 
 /// Copies a number of the frame that is recorded next, to be read later: with frames in flight, reading now would wait
@@ -205,7 +205,7 @@ void FrameRunner::collectCounts() {
     for (const PendingCount& pending : pendingCounts_) {
         std::uint32_t number = 0;
         pending.number.read(std::span(&number, 1));
-        FrameRecord& record = records_[pending.record];
+        measure::FrameRecord& record = records_[pending.record];
         if (pending.isOfParticles) record.particles = number;
         if (!pending.isOfParticles)
             record.primitives = number;
@@ -237,12 +237,12 @@ void FrameRunner::volume(VolumeVisitor& visitor) {
     host_.method().volume(host_.seeParticles(lastIndex_, untimed), visitor);
 }
 
-Columns FrameRunner::facts() {
+results::Columns FrameRunner::facts() {
     const StageClock untimed;
     return host_.facts(host_.seeParticles(lastIndex_, untimed));
 }
 
-DrawnMoment FrameRunner::drawn(bool withDetail) {
+reference::DrawnMoment FrameRunner::drawn(bool withDetail) {
     const StageClock untimed;
     return host_.drawn(host_.see(lastIndex_, untimed), withDetail);
 }
@@ -282,4 +282,4 @@ void requireFinite(const pictures::Image& picture, std::int64_t frame, Stage sta
         channels[channel], (*first)[static_cast<int>(channel)], stageNames[static_cast<std::size_t>(stage)]));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

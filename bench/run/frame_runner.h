@@ -25,17 +25,17 @@
 #include "methods/kit/gpu/queue_marks.h"
 #include "methods/kit/pictures/image.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 
 /// Steps of the world before the warm-up: the preroll, but at least one, for verification.
-[[nodiscard]] std::int64_t stepsBeforeWarmup(const World& world);
+[[nodiscard]] std::int64_t stepsBeforeWarmup(const world::World& world);
 
 class FrameRunner {
  public:
     /// Hosts the method of `spec` with `parameters`. Set `useGpuTimers` only if GPU timers were found to be reliable.
     /// `world` and `device` must outlive the runner.
-    FrameRunner(const RunSpec& spec, World& world, gpu::Device& device, const ParameterValues& parameters,
-                bool useGpuTimers);
+    FrameRunner(const results::RunSpec& spec, world::World& world, gpu::Device& device,
+                const ParameterValues& parameters, bool useGpuTimers);
 
     /// One step of the world without a picture; the method is updated if it requires that.
     void stepWithoutPicture(std::int64_t index);
@@ -53,13 +53,13 @@ class FrameRunner {
 
     /// For metrics: draws the state of the last `updateOnly` outside all timing. `withDetail`: also draws the layer
     /// without the scene.
-    [[nodiscard]] DrawnMoment drawn(bool withDetail);
+    [[nodiscard]] reference::DrawnMoment drawn(bool withDetail);
     /// The last frame over its scene, linear.
     [[nodiscard]] pictures::Image picture();
     /// The volume (Method::volume) and the facts that the method provides for the last `frame` or `updateOnly`.
     void volume(VolumeVisitor& visitor);
-    [[nodiscard]] Columns facts();
-    [[nodiscard]] std::span<const FrameRecord> records() const { return records_; }
+    [[nodiscard]] results::Columns facts();
+    [[nodiscard]] std::span<const measure::FrameRecord> records() const { return records_; }
     [[nodiscard]] const MethodHost& host() const { return host_; }
     [[nodiscard]] const Method& method() const { return host_.method(); }
 
@@ -71,11 +71,11 @@ class FrameRunner {
     void keepCount(const gpu::Buffer& number, bool isOfParticles);
     void collectCounts();
 
-    RunSpec spec_;
-    World& world_;
+    results::RunSpec spec_;
+    world::World& world_;
     gpu::Device& device_;
     MethodHost host_;
-    StageRecorder recorder_;
+    measure::StageRecorder recorder_;
     gpu::Fence lastFrame_;
     std::int64_t lastEndNs_ = 0;  ///< start of the next overlapping frame; 0: none in flight
     std::int64_t lastIndex_ = 0;
@@ -88,11 +88,11 @@ class FrameRunner {
         gpu::Buffer number;
     };
     std::deque<PendingCount> pendingCounts_;
-    std::vector<FrameRecord> records_;
+    std::vector<measure::FrameRecord> records_;
 };
 
 struct Replay {
-    const RunSpec& spec;
+    const results::RunSpec& spec;
     FrameRunner& runner;
     std::int64_t prerollSteps;  ///< stepsBeforeWarmup
     std::int64_t lastFrame;
@@ -113,4 +113,4 @@ bool replay(const Replay& replay);
 /// red is nan (stage draw)`.
 void requireFinite(const pictures::Image& picture, std::int64_t frame, Stage stage, std::string_view what);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

@@ -6,7 +6,7 @@
 
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace {
 
 std::string faultOf(const pictures::Image& picture) {
@@ -44,5 +44,4 @@ TEST(FinitePicture, LargeAndNegativeValuesAreFinite) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

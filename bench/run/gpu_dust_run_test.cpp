@@ -13,7 +13,7 @@
 #include "methods/kit/gpu/faulty_driver.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace {
 
 using testing::Contains;
@@ -22,9 +22,10 @@ using testing::Not;
 
 class GpuDustRun : public testing::Test {
  protected:
-    [[nodiscard]] static RunSpec specOf(const std::string& method, DustOn place, const ParameterTexts& parameters = {},
-                                        const std::string& scene = "plain") {
-        RunSpec spec;
+    [[nodiscard]] static results::RunSpec specOf(const std::string& method, results::DustOn place,
+                                                 const results::ParameterTexts& parameters = {},
+                                                 const std::string& scene = "plain") {
+        results::RunSpec spec;
         spec.method = method;
         spec.scene = scene;
         spec.dustOn = place;
@@ -32,19 +33,19 @@ class GpuDustRun : public testing::Test {
         spec.size = {160, 120};
         spec.frames = 31;
         spec.warmup = 2;
-        spec.parameters = canonicalParameters(findMethod(method), parameters);
+        spec.parameters = results::canonicalParameters(findMethod(method), parameters);
         return spec;
     }
-    [[nodiscard]] RunRecord measured(const RunSpec& spec) const {
+    [[nodiscard]] results::RunRecord measured(const results::RunSpec& spec) const {
         return measureRun(spec, folder_.path(), {}, [](std::string_view, std::int64_t, std::int64_t) {});
     }
-    [[nodiscard]] static double asDouble(const Value& value) {
+    [[nodiscard]] static double asDouble(const results::Value& value) {
         if (const auto* number = std::get_if<double>(&value)) return *number;
         if (const auto* number = std::get_if<std::int64_t>(&value)) return static_cast<double>(*number);
         ADD_FAILURE() << "not a number";
         return 0;
     }
-    [[nodiscard]] static double numberOf(const RunRecord& record, std::string_view column) {
+    [[nodiscard]] static double numberOf(const results::RunRecord& record, std::string_view column) {
         for (const auto& [name, value] : record.summary)
             if (name == column) return asDouble(value);
         ADD_FAILURE() << "no " << column;
@@ -59,15 +60,15 @@ class GpuDustRun : public testing::Test {
 
 /// One world and runner.
 struct Stepped {
-    Stepped(const RunSpec& spec, gpu::Device& device)
-        : parameters(resolveParameters(findMethod(spec.method), spec.parameters)),
+    Stepped(const results::RunSpec& spec, gpu::Device& device)
+        : parameters(results::resolveParameters(findMethod(spec.method), spec.parameters)),
           world(spec.scene, spec.drive, parameters.world, spec.seed),
           runner(spec, world, device, parameters.method, false) {
         (void)placeDust(spec, world, device);
     }
 
-    ResolvedParameters parameters;
-    World world;
+    results::ResolvedParameters parameters;
+    world::World world;
     FrameRunner runner;
 };
 
@@ -75,7 +76,7 @@ struct Stepped {
 /// pixels' counters: linked_list, and on a software renderer all with a LoopLimit.
 struct Taker {
     const char* method;
-    ParameterTexts parameters{};
+    results::ParameterTexts parameters{};
     int numbers = 1;  ///< particles, and primitives if there is not one for each particle
 };
 const std::vector<Taker> takers{{"billboard"},
@@ -92,8 +93,8 @@ TEST_F(GpuDustRun, ReadsNothingBackInAFrame) {
     gpu::Device device;
     for (const auto& [method, parameters, numbers] : takers) {
         if (!hasMethod(method)) continue;
-        RunSpec spec = specOf(method, DustOn::gpu, parameters);
-        spec.sync = Sync::none;
+        results::RunSpec spec = specOf(method, results::DustOn::gpu, parameters);
+        spec.sync = results::Sync::none;
         Stepped stepped(spec, device);
         for (int index = -40; index < -2; ++index) stepped.runner.stepWithoutPicture(index);
         stepped.runner.verifiedStep(-2);
@@ -102,7 +103,7 @@ TEST_F(GpuDustRun, ReadsNothingBackInAFrame) {
         EXPECT_EQ(readBacks.count(), 0) << method;
         stepped.runner.drain();
         EXPECT_EQ(readBacks.count(), 20 * numbers) << method << ": the numbers of each frame, afterwards";
-        for (const FrameRecord& frame : stepped.runner.records()) {
+        for (const measure::FrameRecord& frame : stepped.runner.records()) {
             EXPECT_GT(frame.particles, 100) << method;
             if (numbers == 2) {
                 EXPECT_GT(frame.primitives, 20) << method;
@@ -114,7 +115,7 @@ TEST_F(GpuDustRun, ReadsNothingBackInAFrame) {
 
 TEST_F(GpuDustRun, DrawsThePictureOfDustOnTheCpu) {
     gpu::Device device;
-    const std::vector<std::pair<std::string, ParameterTexts>> settings{
+    const std::vector<std::pair<std::string, results::ParameterTexts>> settings{
         {"billboard", {}},
         {"billboard", {{"soft", "on"}, {"facing", "viewplane"}}},
         {"billboard", {{"sort", "none"}}},
@@ -131,18 +132,20 @@ TEST_F(GpuDustRun, DrawsThePictureOfDustOnTheCpu) {
         for (const auto& [method, parameters] : settings) {
             if (!hasMethod(method)) continue;
             std::vector<pictures::Image> shown;
-            for (const DustOn place : {DustOn::cpu, DustOn::gpu}) {
+            for (const results::DustOn place : {results::DustOn::cpu, results::DustOn::gpu}) {
                 Stepped stepped(specOf(method, place, parameters, scene), device);
                 for (int index = -120; index < -1; ++index) stepped.runner.stepWithoutPicture(index);
                 stepped.runner.verifiedStep(-1);
                 stepped.runner.frame(0);
                 shown.push_back(stepped.runner.picture());
-                const FrameRecord& last = stepped.runner.records().back();
+                const measure::FrameRecord& last = stepped.runner.records().back();
                 const bool twoPasses = std::string_view(method) == "stochastic_transparency";
                 EXPECT_GT(last.particles, 500) << method;
                 EXPECT_EQ(last.primitives, (twoPasses ? 2 : 1) * last.particles) << method;
             }
-            const double difference = *flip(preparePicture(shown[0], "CPU"), preparePicture(shown[1], "GPU")).value;
+            const double difference =
+                *measure::flip(measure::preparePicture(shown[0], "CPU"), measure::preparePicture(shown[1], "GPU"))
+                     .value;
             EXPECT_LT(difference, 1e-3) << method << " in " << scene;
         }
 }
@@ -156,9 +159,10 @@ TEST_F(GpuDustRun, HasTheOctreesOfTheCpu) {
                 if (!hasMethod(method)) continue;
                 std::vector<pictures::Image> shown;
                 std::vector<std::int64_t> voxels;
-                std::vector<Columns> facts;
-                for (const auto& [layout, place] : {std::pair("faithful", DustOn::cpu), std::pair("gpu", DustOn::cpu),
-                                                    std::pair("gpu", DustOn::gpu)}) {
+                std::vector<results::Columns> facts;
+                for (const auto& [layout, place] :
+                     {std::pair("faithful", results::DustOn::cpu), std::pair("gpu", results::DustOn::cpu),
+                      std::pair("gpu", results::DustOn::gpu)}) {
                     Stepped stepped(specOf(method, place, {{"layout", layout}, {"policy", policy}}, scene), device);
                     for (int index = -120; index < -1; ++index) stepped.runner.stepWithoutPicture(index);
                     stepped.runner.verifiedStep(-1);
@@ -179,32 +183,35 @@ TEST_F(GpuDustRun, HasTheOctreesOfTheCpu) {
                 EXPECT_EQ(voxels[1], voxels[0]) << method << " in " << scene;
                 EXPECT_EQ(voxels[2], voxels[0]) << method << " in " << scene;
                 for (const std::size_t built : {1, 2})
-                    EXPECT_LT(*flip(preparePicture(shown[0], "CPU"), preparePicture(shown[built], "GPU")).value, 1e-3)
+                    EXPECT_LT(*measure::flip(measure::preparePicture(shown[0], "CPU"),
+                                             measure::preparePicture(shown[built], "GPU"))
+                                   .value,
+                              1e-3)
                         << method << " in " << scene << ", " << policy;
             }
 }
 
 TEST_F(GpuDustRun, IsReadBackInTheUploadForOtherMethods) {
-    for (const auto& [method, parameters] : std::vector<std::pair<std::string, ParameterTexts>>{
+    for (const auto& [method, parameters] : std::vector<std::pair<std::string, results::ParameterTexts>>{
              {"billboard", {{"sort", "quicksort"}}}, {"octree_search", {}}}) {
         if (!hasMethod(method)) continue;
-        const RunRecord cpu = measured(specOf(method, DustOn::cpu, parameters));
-        const RunRecord gpu = measured(specOf(method, DustOn::gpu, parameters));
+        const results::RunRecord cpu = measured(specOf(method, results::DustOn::cpu, parameters));
+        const results::RunRecord gpu = measured(specOf(method, results::DustOn::gpu, parameters));
         EXPECT_EQ(gpu.provenance.dustOn.place, "gpu");
         EXPECT_EQ(cpu.provenance.dustOn.place, "cpu");
         EXPECT_THAT(gpu.provenance.warnings, Contains(HasSubstr("reads the dust back"))) << method;
         EXPECT_THAT(cpu.provenance.warnings, Not(Contains(HasSubstr("reads the dust back")))) << method;
         EXPECT_EQ(numberOf(gpu, "particles_median"), numberOf(cpu, "particles_median")) << method;
         EXPECT_EQ(numberOf(gpu, "primitives_median"), numberOf(cpu, "primitives_median")) << method;
-        EXPECT_NE(runId(gpu.spec), runId(cpu.spec));
+        EXPECT_NE(results::runId(gpu.spec), results::runId(cpu.spec));
     }
 }
 
 TEST_F(GpuDustRun, IsReplayedAndJudgedAsOnTheCpu) {
     if (!hasMethod("billboard")) GTEST_SKIP() << "no billboards here";
-    std::vector<RunRecord> runs;
-    for (const DustOn place : {DustOn::cpu, DustOn::gpu}) {
-        RunSpec spec = specOf("billboard", place, {{"soft", "on"}, {"particles", "600"}});
+    std::vector<results::RunRecord> runs;
+    for (const results::DustOn place : {results::DustOn::cpu, results::DustOn::gpu}) {
+        results::RunSpec spec = specOf("billboard", place, {{"soft", "on"}, {"particles", "600"}});
         spec.metricPlan.emplace();
         runs.push_back(measured(spec));
     }
@@ -218,15 +225,15 @@ TEST_F(GpuDustRun, IsReplayedAndJudgedAsOnTheCpu) {
 TEST_F(GpuDustRun, StaysOnTheCpuOfASoftwareDeviceUnlessRequested) {
     gpu::Device device;
     if (!device.isSoftware()) GTEST_SKIP() << "a hardware device";
-    Stepped stepped(specOf("null_method", DustOn::automatic), device);
+    Stepped stepped(specOf("null_method", results::DustOn::automatic), device);
     EXPECT_EQ(stepped.world.gpuDust(), nullptr);
 }
 
 TEST_F(GpuDustRun, IsRefusedForPartsWithoutAShader) {
-    const RunSpec spec = specOf("null_method", DustOn::gpu, {}, "smoke");
+    const results::RunSpec spec = specOf("null_method", results::DustOn::gpu, {}, "smoke");
     EXPECT_THROW((void)measured(spec), InputError);
-    EXPECT_NO_THROW((void)measured(specOf("null_method", DustOn::automatic, {}, "smoke")));
+    EXPECT_NO_THROW((void)measured(specOf("null_method", results::DustOn::automatic, {}, "smoke")));
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

@@ -6,7 +6,7 @@
 
 #include "bench/run/executor.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 
 struct HarnessCost {
     double harnessUs = 0;     ///< per frame, outside all stages
@@ -18,4 +18,4 @@ struct HarnessCost {
 /// does not have the method or the run fails, with the reason.
 [[nodiscard]] HarnessCost measureHarness(ExecutionOptions options);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

@@ -11,26 +11,27 @@
 #include "methods/kit/files/whole_text.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace {
 
 class EvaluatedRun : public testing::Test {
  protected:
     /// The summary of a run with metrics and this many frames.
-    std::map<std::string, double> evaluated(const std::string& method, const ParameterTexts& parameters,
+    std::map<std::string, double> evaluated(const std::string& method, const results::ParameterTexts& parameters,
                                             std::int64_t frames = 31, const std::string& drive = "straight",
-                                            const ParameterTexts& finer = {}, const std::string& scene = "plain") {
-        RunSpec spec;
+                                            const results::ParameterTexts& finer = {},
+                                            const std::string& scene = "plain") {
+        results::RunSpec spec;
         spec.method = method;
         spec.scene = scene;
         spec.drive = drive;
         spec.size = {160, 120};
         spec.frames = frames;
         spec.warmup = 2;
-        spec.parameters = canonicalParameters(findMethod(method), parameters);
+        spec.parameters = results::canonicalParameters(findMethod(method), parameters);
         spec.metricPlan.emplace().finer = finer;
         std::map<std::string, double> numbers;
-        const RunRecord record = measureRun(
+        const results::RunRecord record = measureRun(
             spec, folder_.path(), {}, [](std::string_view, std::int64_t, std::int64_t) {}, references_);
         for (const auto& [name, value] : record.summary) {
             if (const auto* number = std::get_if<double>(&value)) numbers[name] = *number;
@@ -114,9 +115,9 @@ TEST_F(EvaluatedRun, GapsOfBillboardsRiseWithSpeed) {
 
 TEST_F(EvaluatedRun, VoxelsPopAndCrossFadingPopsLess) {
     if (!hasMethod("octree_search") || !hasMethod("billboard")) GTEST_SKIP() << "no octree here";
-    const ParameterTexts world{{"particles", "600"}};
+    const results::ParameterTexts world{{"particles", "600"}};
     const auto with = [&](const char* name, const char* value) {
-        ParameterTexts texts = world;
+        results::ParameterTexts texts = world;
         texts[name] = value;
         return texts;
     };
@@ -129,7 +130,7 @@ TEST_F(EvaluatedRun, VoxelsPopAndCrossFadingPopsLess) {
 
 TEST_F(EvaluatedRun, HoldsAMethodAgainstItselfAtAFinerSetting) {
     if (!hasMethod("octree_search")) GTEST_SKIP() << "no octree here";
-    const ParameterTexts coarse{{"particles", "300"}, {"depth", "7"}, {"policy", "accumulate"}};
+    const results::ParameterTexts coarse{{"particles", "300"}, {"depth", "7"}, {"policy", "accumulate"}};
     const auto self = evaluated("octree_search", coarse, 5, "straight", {{"depth", "7"}});
     EXPECT_EQ(self.at("identical"), 1);
     EXPECT_EQ(self.at("volume_error"), 0);
@@ -169,4 +170,4 @@ TEST_F(EvaluatedRun, HasNoPoppingInAShortRunAndNoMetricsWithoutDust) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

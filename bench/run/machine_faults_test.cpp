@@ -15,7 +15,7 @@
 #include "methods/kit/files/machine_error.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace {
 namespace fs = std::filesystem;
 
@@ -26,22 +26,22 @@ class MachineFaults : public testing::Test {
  protected:
     void SetUp() override {
         for (std::uint64_t seed : {1u, 2u, 3u}) {
-            PlannedRun run;
+            suite::PlannedRun run;
             run.spec.method = "haze";
             run.spec.seed = seed;
             plan_.push_back(run);
-            RunRecord record;
+            results::RunRecord record;
             record.spec = run.spec;
-            record.summary = identityColumns(record, 2);
-            folder_.write("made-" + runId(run.spec), toJson(record));
+            record.summary = results::identityColumns(record, 2);
+            folder_.write("made-" + results::runId(run.spec), results::toJson(record));
         }
     }
     [[nodiscard]] std::string made(std::size_t i) const {
-        return (folder_.path() / ("made-" + runId(plan_[i].spec))).string();
+        return (folder_.path() / ("made-" + results::runId(plan_[i].spec))).string();
     }
     [[nodiscard]] fs::path out() const { return folder_.path() / "out"; }
     /// `script` sees the run's folder as $1.
-    [[nodiscard]] ExecutionResult run(const std::string& script, const ResourceLimits& limits = {},
+    [[nodiscard]] ExecutionResult run(const std::string& script, const suite::ResourceLimits& limits = {},
                                       bool badInputEnds = false) {
         ExecutionOptions options;
         options.limits = limits;
@@ -49,18 +49,20 @@ class MachineFaults : public testing::Test {
         options.badInputEnds = badInputEnds;
         options.command = [&](const fs::path&, const fs::path& folder) -> std::vector<std::string> {
             const std::string name = folder.filename();
-            const bool isSecond = name.ends_with(runId(plan_[1].spec));
+            const bool isSecond = name.ends_with(results::runId(plan_[1].spec));
             std::string file;
             for (std::size_t i = 0; i < plan_.size(); ++i)
-                if (name.ends_with(runId(plan_[i].spec))) file = made(i);
+                if (name.ends_with(results::runId(plan_[i].spec))) file = made(i);
             return {"/bin/sh", "-c", isSecond ? script : "cp " + file + " $1/run.json", "sh", folder.string()};
         };
-        ResultsFolder results(out());
+        results::ResultsFolder results(out());
         ExecutionListener quiet;
         return execute(plan_, 1, results, options, quiet);
     }
     [[nodiscard]] std::string good() const { return "cp " + made(1) + " $1/run.json"; }
-    [[nodiscard]] StoredRun second() const { return readRunFile(out() / "runs" / runId(plan_[1].spec) / "run.json"); }
+    [[nodiscard]] results::StoredRun second() const {
+        return results::readRunFile(out() / "runs" / results::runId(plan_[1].spec) / "run.json");
+    }
     [[nodiscard]] std::size_t entries() const {
         return static_cast<std::size_t>(std::distance(fs::directory_iterator(out() / "runs"), {}));
     }
@@ -80,7 +82,7 @@ class MachineFaults : public testing::Test {
     }
 
     TestFolder folder_;
-    std::vector<PlannedRun> plan_;
+    std::vector<suite::PlannedRun> plan_;
 };
 
 TEST_F(MachineFaults, ARunThatTheMachineAbortsIsNotAFailedOne) {
@@ -101,7 +103,7 @@ TEST_F(MachineFaults, AFolderThatTakesNoMoreFilesIsNotAFailedRun) {
 }
 
 TEST_F(MachineFaults, NoMoreOpenFilesIsSaidSo) {
-    ResultsFolder results(out());
+    results::ResultsFolder results(out());
     rlimit before{};
     getrlimit(RLIMIT_NOFILE, &before);
     const rlimit few{static_cast<rlim_t>(dup(0)), before.rlim_max};  // the next open file exceeds the limit
@@ -118,16 +120,16 @@ TEST_F(MachineFaults, AnotherRunsResultIsNotPublished) {
     const ExecutionResult result = run("cp " + made(0) + " $1/run.json");
     EXPECT_EQ(result.done, 2u);
     EXPECT_EQ(result.failed, 1u);
-    EXPECT_EQ(second().runId, runId(plan_[1].spec));
-    EXPECT_EQ(second().status, RunStatus::failed);
-    EXPECT_THAT(second().reason, HasSubstr("wrote the result of another run, '" + runId(plan_[0].spec)));
+    EXPECT_EQ(second().runId, results::runId(plan_[1].spec));
+    EXPECT_EQ(second().status, results::RunStatus::failed);
+    EXPECT_THAT(second().reason, HasSubstr("wrote the result of another run, '" + results::runId(plan_[0].spec)));
 }
 
 TEST_F(MachineFaults, AMalformedResultFailsItsRunAlone) {
     for (const char* text : {"", "{", "[]", "null", "{\"run_id\": 3}"}) {
         const ExecutionResult result = run(std::string("echo '") + text + "' > $1/run.json");
         EXPECT_EQ(result.failed, 1u) << text;
-        EXPECT_EQ(second().status, RunStatus::failed) << text;
+        EXPECT_EQ(second().status, results::RunStatus::failed) << text;
         EXPECT_THAT(second().reason, HasSubstr("wrote a result that cannot be read")) << text;
     }
     EXPECT_EQ(run(good()).failed, 0u);
@@ -160,7 +162,7 @@ TEST_F(MachineFaults, ARunThatNeedsMoreMemoryThanItMayFails) {
 
 TEST_F(MachineFaults, TheMemoryLimitIsTheProcesses) {
     EXPECT_EQ(run("ulimit -d > $1/limit; " + good(), {512, 0}).done, 3u);
-    std::ifstream file(out() / "runs" / runId(plan_[1].spec) / "limit");
+    std::ifstream file(out() / "runs" / results::runId(plan_[1].spec) / "limit");
     std::int64_t kibibytes = 0;
     file >> kibibytes;
     EXPECT_EQ(kibibytes, 512'000'000 / 1024);
@@ -179,4 +181,4 @@ TEST_F(MachineFaults, AFloodOfOutputIsRead) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

@@ -25,7 +25,7 @@
 #include "bench/run/method_host.h"
 #include "methods/contract/registry.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 
 namespace fs = std::filesystem;
 namespace {
@@ -41,15 +41,16 @@ void savePicture(FrameRunner& runner, const fs::path& folder, std::int64_t index
         pictures::writeImage(picture, folder / "images" / fmt::format("f{:06}.{}", index, extension));
 }
 
-void addMemory(RunRecord& record, const std::string& owner, const MemoryReport& report) {
+void addMemory(results::RunRecord& record, const std::string& owner, const MemoryReport& report) {
     for (const MemoryUse& use : report) record.memory.emplace_back(owner, use);
 }
 
 /// The volumes of a run, written between frames.
 class RunVolumes {
  public:
-    RunVolumes(const RunSpec& spec, const fs::path& folder, const World& world, std::vector<std::string>& warnings)
-        : spec_(spec), configuration_(configurationOf(spec)), world_(world), warnings_(warnings) {
+    RunVolumes(const results::RunSpec& spec, const fs::path& folder, const world::World& world,
+               std::vector<std::string>& warnings)
+        : spec_(spec), configuration_(results::configurationOf(spec)), world_(world), warnings_(warnings) {
         if (spec.volumes) exporter_.emplace(*spec.volumes, folder / "volumes");
     }
 
@@ -59,7 +60,7 @@ class RunVolumes {
     /// After frame `index`.
     void write(FrameRunner& runner, std::int64_t index) {
         runner.drain();
-        CollectedVolume volume;
+        exports::CollectedVolume volume;
         runner.volume(volume);
         if (index == exporter_->settings().frames.first) leaveOutImpossible(volume);
         exporter_->write({index, spec_.method, volume, world_.scene(), world_.state(), world_.dust(), configuration_});
@@ -67,40 +68,40 @@ class RunVolumes {
     /// Columns of summary.csv; empty if no volume was requested.
     [[nodiscard]] std::string firstSeries() const {
         if (!exporter_ || exporter_->seriesFiles().empty()) return {};
-        return "runs/" + runId(spec_) + "/volumes/" + exporter_->seriesFiles().front().filename().string();
+        return "runs/" + results::runId(spec_) + "/volumes/" + exporter_->seriesFiles().front().filename().string();
     }
 
  private:
     /// A suite requests the same formats from all methods, so an unsupported one is an error only if none remain.
-    void leaveOutImpossible(const CollectedVolume& volume) {
+    void leaveOutImpossible(const exports::CollectedVolume& volume) {
         const std::vector<std::string> asked = exporter_->settings().formats;
         std::vector<std::string> reasons;
         for (const std::string& format : asked)
-            if (const std::string reason = whyNotWritable(volume, format); !reason.empty()) {
-                reasons.push_back(fmt::format("no .{} was written: method {} {}", exporterOf(format).extension,
+            if (const std::string reason = exports::whyNotWritable(volume, format); !reason.empty()) {
+                reasons.push_back(fmt::format("no .{} was written: method {} {}", exports::exporterOf(format).extension,
                                               spec_.method, reason));
                 exporter_->leaveOut(format);
             }
-        if (exporter_->settings().formats.empty()) requireWritable(volume, asked, spec_.method);
+        if (exporter_->settings().formats.empty()) exports::requireWritable(volume, asked, spec_.method);
         warnings_.insert(warnings_.end(), reasons.begin(), reasons.end());
     }
 
-    const RunSpec& spec_;
+    const results::RunSpec& spec_;
     std::vector<std::string> configuration_;
-    const World& world_;
+    const world::World& world_;
     std::vector<std::string>& warnings_;
-    std::optional<VolumeExporter> exporter_;
+    std::optional<exports::VolumeExporter> exporter_;
 };
 
-DustCount dustCount(const RunSpec& spec, const FrameRunner& runner) {
+results::DustCount dustCount(const results::RunSpec& spec, const FrameRunner& runner) {
     std::vector<double> counts;
-    for (const FrameRecord& frame : runner.records()) counts.push_back(static_cast<double>(frame.particles));
-    const bool isShown = spec.method != baselineMethod && !runner.method().stateHash();
-    return {std::stoll(spec.parameters.at("particles")), median(counts), isShown};
+    for (const measure::FrameRecord& frame : runner.records()) counts.push_back(static_cast<double>(frame.particles));
+    const bool isShown = spec.method != results::baselineMethod && !runner.method().stateHash();
+    return {std::stoll(spec.parameters.at("particles")), measure::median(counts), isShown};
 }
 
 /// Moments of a run that can have no metrics: their pictures are stored anyway, for inspection.
-std::vector<std::int64_t> momentsToShow(const RunSpec& spec, const Method& method) {
+std::vector<std::int64_t> momentsToShow(const results::RunSpec& spec, const Method& method) {
     if (!spec.metricPlan || !spec.metricPlan->keepsPictures || whyNotEvaluated(*spec.metricPlan, method).empty())
         return {};
     return spec.metricPlan->momentsOf(spec.frames);
@@ -108,16 +109,16 @@ std::vector<std::int64_t> momentsToShow(const RunSpec& spec, const Method& metho
 
 /// Runs the untimed steps, the last of which is verified, then warm-up and recorded frames. Fills in the measurements
 /// of the run as a whole.
-void runFrames(const RunSpec& spec, const World& world, FrameRunner& runner, const fs::path& folder,
-               RunVolumes& volumes, EnergyMeter& energy, ClockWatch& clock, const RunProgress& progress,
-               WholeRun& run) {
+void runFrames(const results::RunSpec& spec, const world::World& world, FrameRunner& runner, const fs::path& folder,
+               RunVolumes& volumes, measure::EnergyMeter& energy, measure::ClockWatch& clock,
+               const RunProgress& progress, results::WholeRun& run) {
     const std::int64_t preroll = stepsBeforeWarmup(world);
     for (std::int64_t step = 0; step < preroll; ++step) {
         progress("preroll", step, preroll);
         const std::int64_t index = step - preroll - spec.warmup;
         step + 1 < preroll ? runner.stepWithoutPicture(index) : runner.verifiedStep(index);
     }
-    run.startSeconds = secondsSinceProcessStart();
+    run.startSeconds = measure::secondsSinceProcessStart();
     const std::vector<std::int64_t> shown = momentsToShow(spec, runner.method());
     for (std::int64_t index = -spec.warmup; index < spec.frames; ++index) {
         if (index == 0) {
@@ -129,7 +130,7 @@ void runFrames(const RunSpec& spec, const World& world, FrameRunner& runner, con
         else
             progress("frames", index, spec.frames);
         // With frames in flight there is no time between them: the next one has begun.
-        if (index >= 0 && spec.sync != Sync::none) clock.betweenFrames();
+        if (index >= 0 && spec.sync != results::Sync::none) clock.betweenFrames();
         runner.frame(index);
         const bool savesPicture = (spec.imagesEvery > 0 && index >= 0 && index % spec.imagesEvery == 0) ||
                                   std::ranges::binary_search(shown, index);
@@ -148,27 +149,28 @@ void runFrames(const RunSpec& spec, const World& world, FrameRunner& runner, con
     progress("frames", spec.frames, spec.frames);
 }
 
-void warnOfClock(const ClockWatch& clock, std::int64_t throttledBefore, std::vector<std::string>& warnings) {
-    for (std::string warning : {clock.warning(), throttlingWarning(throttledBefore, readMachine().throttled)})
+void warnOfClock(const measure::ClockWatch& clock, std::int64_t throttledBefore, std::vector<std::string>& warnings) {
+    for (std::string warning :
+         {clock.warning(), measure::throttlingWarning(throttledBefore, measure::readMachine().throttled)})
         if (!warning.empty()) warnings.push_back(std::move(warning));
 }
 
-void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& progress, const fs::path& references,
-             RunRecord& record) {
+void measure(const results::RunSpec& spec, const fs::path& folder, const RunProgress& progress,
+             const fs::path& references, results::RunRecord& record) {
     const files::InputLog read;
     const MethodInfo& info = findMethod(spec.method);
-    const ResolvedParameters parameters = resolveParameters(info, spec.parameters);
-    World world(spec.scene, spec.drive, parameters.world, spec.seed);
+    const results::ResolvedParameters parameters = results::resolveParameters(info, spec.parameters);
+    world::World world(spec.scene, spec.drive, parameters.world, spec.seed);
     world.followPath(spec.cameraPath);
-    world.useDust(givenDust(spec));
+    world.useDust(results::givenDust(spec));
     record.drive = world.driveId();
-    recordInputs(world, parameters.method, read, record.provenance);
+    results::recordInputs(world, parameters.method, read, record.provenance);
     const int threads = oneapi::tbb::this_task_arena::max_concurrency();
 
     if (const std::string reason = whyNotTaken(info, world.scene()); !reason.empty()) {
-        record.status = RunStatus::skipped;
+        record.status = results::RunStatus::skipped;
         record.reason = reason;
-        record.summary = identityColumns(record, threads);
+        record.summary = results::identityColumns(record, threads);
         return;
     }
 
@@ -178,34 +180,34 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     record.provenance.dustOn = placeDust(spec, world, device);
     if (std::string warning = readBackWarning(world, info, parameters.method); !warning.empty())
         record.provenance.warnings.push_back(std::move(warning));
-    WholeRun whole;
+    results::WholeRun whole;
     whole.softwareRenderer = device.isSoftware();
     // Without a GPU there are no GPU times, and the self-test would compile a shader for nothing.
     record.provenance.gpuTimersTrusted = !whole.softwareRenderer && gpu::timerQueriesAreTrue(device);
     std::optional<FrameRunner> timed;
     FrameRunner& runner = timed.emplace(spec, world, device, parameters.method, record.provenance.gpuTimersTrusted);
-    recordInputs(world, parameters.method, read, record.provenance);  // includes the method's files
+    results::recordInputs(world, parameters.method, read, record.provenance);  // includes the method's files
     RunVolumes volumes(spec, folder, world, record.provenance.warnings);
-    EnergyMeter energy(packageEnergy(), gpuEnergy(device.info().renderer));
-    ClockWatch clock(spec.timed ? gpuClock(device.info().renderer) : nullptr);
-    const std::int64_t throttledBefore = spec.timed ? readMachine().throttled : 0;
+    measure::EnergyMeter energy(measure::packageEnergy(), measure::gpuEnergy(device.info().renderer));
+    measure::ClockWatch clock(spec.timed ? measure::gpuClock(device.info().renderer) : nullptr);
+    const std::int64_t throttledBefore = spec.timed ? measure::readMachine().throttled : 0;
     runFrames(spec, world, runner, folder, volumes, energy, clock, progress, whole);
     if (spec.timed) warnOfClock(clock, throttledBefore, record.provenance.warnings);
     if (const auto range = clock.range()) whole.gpuMegahertz = {range->lowest, range->highest};
-    whole.peakResidentBytes = peakResidentBytes();
+    whole.peakResidentBytes = measure::peakResidentBytes();
     if (const auto freeAtEnd = device.driverFreeBytes(); freeAtStart && freeAtEnd)
         whole.driverBytes = *freeAtStart - *freeAtEnd;
     runner.requireFinitePicture();
 
-    if (world.state().timeSeconds > world.driveSeconds() + 0.5 * stepSeconds)
+    if (world.state().timeSeconds > world.driveSeconds() + 0.5 * world::stepSeconds)
         record.provenance.warnings.push_back(
             fmt::format("the run ends at {:.1f} s, the drive at {:.1f} s: its last row applies to the rest",
                         world.state().timeSeconds, world.driveSeconds()));
 
     std::vector<double> frameMs;
-    for (const FrameRecord& frame : runner.records()) frameMs.push_back(frame.frameMs);
+    for (const measure::FrameRecord& frame : runner.records()) frameMs.push_back(frame.frameMs);
     if (spec.timed)
-        for (std::string& warning : steadinessWarnings(frameMs))
+        for (std::string& warning : measure::steadinessWarnings(frameMs))
             record.provenance.warnings.push_back(std::move(warning));
 
     record.stateHash = hexadecimal(world.stateHash());
@@ -215,25 +217,26 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     for (const auto& [structure, bytes] : runner.host().gpuLedger().entries())
         record.memory.emplace_back("device", MemoryUse{structure, 0, bytes});
 
-    record.summary = identityColumns(record, threads);
-    for (auto& column : measuredColumns(runner.records(), whole))
-        if (spec.timed || !dependsOnSpeed(column.first)) record.summary.push_back(std::move(column));
-    const Columns facts = runner.facts();
+    record.summary = results::identityColumns(record, threads);
+    for (auto& column : results::measuredColumns(runner.records(), whole))
+        if (spec.timed || !results::dependsOnSpeed(column.first)) record.summary.push_back(std::move(column));
+    const results::Columns facts = runner.facts();
     record.summary.insert(record.summary.end(), facts.begin(), facts.end());
-    record.validity = whyInvalid(info, facts, dustCount(spec, runner));
+    record.validity = results::whyInvalid(info, facts, dustCount(spec, runner));
     if (!record.validity.empty())
         record.summary.emplace_back("invalid", fmt::format("{}", fmt::join(record.validity, "; ")));
     if (spec.imagesEvery > 0 || (spec.metricPlan && spec.metricPlan->keepsPictures)) {
         const std::int64_t first = spec.imagesEvery > 0 ? 0 : spec.metricPlan->momentsOf(spec.frames).front();
-        record.summary.emplace_back("FILE_image", fmt::format("runs/{}/images/f{:06}.png", runId(spec), first));
+        record.summary.emplace_back("FILE_image",
+                                    fmt::format("runs/{}/images/f{:06}.png", results::runId(spec), first));
     }
     if (const std::string series = volumes.firstSeries(); !series.empty())
         record.summary.emplace_back("FILE_volume", series);
     if (spec.timed) {
-        writeWhole(folder / "frames.csv", framesCsv(runner.records()));
-        writeWhole(folder / "stages.csv", stagesCsv(runner.records()));
+        exports::writeWhole(folder / "frames.csv", results::framesCsv(runner.records()));
+        exports::writeWhole(folder / "stages.csv", results::stagesCsv(runner.records()));
     }
-    for (const KeptFile& file : runner.method().files()) writeWhole(folder / file.name, file.text);
+    for (const KeptFile& file : runner.method().files()) exports::writeWhole(folder / file.name, file.text);
     if (!spec.metricPlan) return;
     if (std::string reason = whyNotEvaluated(*spec.metricPlan, runner.method()); !reason.empty()) {
         record.provenance.warnings.push_back(std::move(reason));
@@ -241,24 +244,25 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     }
     record.summary.emplace_back("metric_reference", spec.metricPlan->referenceText());
     timed.reset();
-    const RunMetrics runMetrics = evaluateRun(spec, folder, device, record.stateHash, progress, references);
-    for (auto& [column, value] : summaryOf(runMetrics)) record.summary.emplace_back(std::move(column), value);
-    if (std::string warning = volumeWarning(runMetrics); !warning.empty())
+    const reference::RunMetrics runMetrics = evaluateRun(spec, folder, device, record.stateHash, progress, references);
+    for (auto& [column, value] : reference::summaryOf(runMetrics))
+        record.summary.emplace_back(std::move(column), value);
+    if (std::string warning = reference::volumeWarning(runMetrics); !warning.empty())
         record.provenance.warnings.push_back(std::move(warning));
 }
 
 }  // namespace
 
-RunRecord measureRun(const RunSpec& spec, const fs::path& folder, std::vector<std::string> argv,
-                     const RunProgress& progress, const fs::path& references) {
-    RunRecord record;
+results::RunRecord measureRun(const results::RunSpec& spec, const fs::path& folder, std::vector<std::string> argv,
+                              const RunProgress& progress, const fs::path& references) {
+    results::RunRecord record;
     record.spec = spec;
     record.drive = spec.drive;
-    record.provenance = startProvenance(std::move(argv), spec.timed);
+    record.provenance = measure::startProvenance(std::move(argv), spec.timed);
     withThreads(spec.threads, [&] { measure(spec, folder, progress, references, record); });
-    if (spec.timed && record.status == RunStatus::done)
-        record.summary.emplace_back("run_s", secondsSinceProcessStart());
-    record.outputs = outputsIn(folder);
+    if (spec.timed && record.status == results::RunStatus::done)
+        record.summary.emplace_back("run_s", measure::secondsSinceProcessStart());
+    record.outputs = results::outputsIn(folder);
     return record;
 }
 
@@ -275,4 +279,4 @@ void withThreads(int threads, const std::function<void()>& work) {
     arena.execute(work);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

@@ -14,12 +14,12 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace {
 namespace fs = std::filesystem;
 
-RunRecord measured(const fs::path& folder, bool timed) {
-    RunSpec spec;
+results::RunRecord measured(const fs::path& folder, bool timed) {
+    results::RunSpec spec;
     spec.method = "null_method";
     spec.drive = "straight";
     spec.size = {64, 48};
@@ -27,11 +27,11 @@ RunRecord measured(const fs::path& folder, bool timed) {
     spec.warmup = 0;
     spec.timed = timed;
     spec.imagesEvery = 1;
-    spec.parameters = canonicalParameters(findMethod(spec.method), {{"particles", "20"}, {"preroll", "0.1"}});
+    spec.parameters = results::canonicalParameters(findMethod(spec.method), {{"particles", "20"}, {"preroll", "0.1"}});
     return measureRun(spec, folder, {}, [](std::string_view, std::int64_t, std::int64_t) {});
 }
 
-std::set<std::string> columnsOf(const RunRecord& record) {
+std::set<std::string> columnsOf(const results::RunRecord& record) {
     std::set<std::string> names;
     for (const auto& [name, value] : record.summary)
         if (!std::holds_alternative<std::monostate>(value)) names.insert(name);
@@ -43,15 +43,15 @@ TEST(MeasuredRun, WithoutTimesKeepsNothingThatDependsOnTheMachinesSpeed) {
     const fs::path with = folder.path() / "with", without = folder.path() / "without";
     fs::create_directories(with);
     fs::create_directories(without);
-    const RunRecord timed = measured(with, true), untimed = measured(without, false);
+    const results::RunRecord timed = measured(with, true), untimed = measured(without, false);
     EXPECT_EQ(timed.stateHash, untimed.stateHash);
-    EXPECT_NE(runId(timed.spec), runId(untimed.spec));
+    EXPECT_NE(results::runId(timed.spec), results::runId(untimed.spec));
     const std::set<std::string> all = columnsOf(timed), kept = columnsOf(untimed);
-    for (const std::string& name : all) EXPECT_EQ(kept.contains(name), !dependsOnSpeed(name)) << name;
+    for (const std::string& name : all) EXPECT_EQ(kept.contains(name), !results::dependsOnSpeed(name)) << name;
     for (const char* time :
          {"fps_avg", "frame_ms_median", "scene_ms_median", "harness_us_median", "start_s", "run_s"}) {
         EXPECT_TRUE(all.contains(time)) << time;
-        EXPECT_TRUE(dependsOnSpeed(time)) << time;
+        EXPECT_TRUE(results::dependsOnSpeed(time)) << time;
     }
     for (const char* count : {"cpu_bytes", "gpu_bytes", "particles_median", "frames"})
         EXPECT_TRUE(kept.contains(count)) << count;
@@ -78,12 +78,12 @@ TEST(MeasuredRun, LitDustIsShownByMethodsThatTakeItAlone) {
 }
 
 TEST(MeasuredRun, WhetherItHasTimesIsKeptOnTheWayToItsProcess) {
-    RunSpec spec;
+    results::RunSpec spec;
     spec.method = "null_method";
     spec.timed = false;
-    EXPECT_FALSE(specFromJson(specToJson(spec)).timed);
+    EXPECT_FALSE(results::specFromJson(results::specToJson(spec)).timed);
     spec.timed = true;
-    EXPECT_TRUE(specFromJson(specToJson(spec)).timed);
+    EXPECT_TRUE(results::specFromJson(results::specToJson(spec)).timed);
 }
 
 TEST(ThreadLimit, ReplacesThatOfTheEnvironmentForTheRasteriser) {
@@ -106,18 +106,18 @@ using testing::IsEmpty;
 
 class InvalidRun : public testing::Test {
  protected:
-    static RunRecord measured(const std::string& method, const ParameterTexts& parameters) {
+    static results::RunRecord measured(const std::string& method, const results::ParameterTexts& parameters) {
         const TestFolder folder;
-        RunSpec spec;
+        results::RunSpec spec;
         spec.method = method;
         spec.drive = "straight";
         spec.size = {64, 48};
         spec.frames = 2;
         spec.warmup = 0;
-        spec.parameters = canonicalParameters(findMethod(method), parameters);
+        spec.parameters = results::canonicalParameters(findMethod(method), parameters);
         return measureRun(spec, folder.path(), {}, [](std::string_view, std::int64_t, std::int64_t) {});
     }
-    static Value cellOf(const RunRecord& record, std::string_view name) {
+    static results::Value cellOf(const results::RunRecord& record, std::string_view name) {
         for (const auto& [column, value] : record.summary)
             if (column == name) return value;
         return {};
@@ -131,19 +131,19 @@ TEST_F(InvalidRun, IsAnOctreeWhoseWorldCannotHoldTheTrail) {
     for (const char* method : {"octree_search", "octree_recursive"}) {
         if (!hasMethod(method)) GTEST_SKIP() << "no octree here";
         // At 40 m/s the trail is longer than 128 m.
-        ParameterTexts fast{{"particles", "300"}, {"speed", "40"}, {"policy", "accumulate"}};
-        const RunRecord whole = measured(method, fast);
+        results::ParameterTexts fast{{"particles", "300"}, {"speed", "40"}, {"policy", "accumulate"}};
+        const results::RunRecord whole = measured(method, fast);
         EXPECT_THAT(whole.validity, IsEmpty());
-        EXPECT_EQ(cellOf(whole, "invalid"), Value());
-        EXPECT_EQ(cellOf(whole, "clipped"), Value(std::int64_t{0}));
-        EXPECT_EQ(cellOf(whole, "world_edge_max"), Value(256.0));
+        EXPECT_EQ(cellOf(whole, "invalid"), results::Value());
+        EXPECT_EQ(cellOf(whole, "clipped"), results::Value(std::int64_t{0}));
+        EXPECT_EQ(cellOf(whole, "world_edge_max"), results::Value(256.0));
         fast["depth"] = "12";  // the maximum depth
-        const RunRecord cut = measured(method, fast);
+        const results::RunRecord cut = measured(method, fast);
         ASSERT_THAT(cut.validity, testing::SizeIs(2));
         EXPECT_THAT(cut.validity[0], HasSubstr("clipped is "));
         EXPECT_THAT(cut.validity[1], HasSubstr("mass_lost is "));
-        EXPECT_EQ(cellOf(cut, "invalid"), Value(cut.validity[0] + "; " + cut.validity[1]));
-        EXPECT_THAT(toJson(cut), HasSubstr("\"validity\": [\n    \"clipped is "));
+        EXPECT_EQ(cellOf(cut, "invalid"), results::Value(cut.validity[0] + "; " + cut.validity[1]));
+        EXPECT_THAT(results::toJson(cut), HasSubstr("\"validity\": [\n    \"clipped is "));
     }
 }
 
@@ -159,7 +159,7 @@ TEST_F(InvalidRun, HasFewerParticlesThanWereAskedFor) {
 
 TEST_F(InvalidRun, HasFewerParticlesOfItsOwnThanWereAskedFor) {
     if (!hasMethod("plugin_particles")) GTEST_SKIP() << "no particle systems here";
-    ParameterTexts few{{"particles", "500"}, {"preroll", "1"}};
+    results::ParameterTexts few{{"particles", "500"}, {"preroll", "1"}};
     EXPECT_THAT(measured("plugin_particles", few).validity, testing::ElementsAre(HasSubstr("alive_deviation is ")));
     few["preroll"] = "6";
     EXPECT_THAT(measured("plugin_particles", few).validity, IsEmpty());
@@ -167,18 +167,17 @@ TEST_F(InvalidRun, HasFewerParticlesOfItsOwnThanWereAskedFor) {
 
 TEST_F(InvalidRun, HasAPressureThatRanOutOfCycles) {
     if (!hasMethod("grid_fluid")) GTEST_SKIP() << "no fluid here";
-    ParameterTexts fluid{{"fluid", "plume"}, {"grid", "16x8x8"}, {"preroll", "0.1"}};
-    const RunRecord solved = measured("grid_fluid", fluid);
+    results::ParameterTexts fluid{{"fluid", "plume"}, {"grid", "16x8x8"}, {"preroll", "0.1"}};
+    const results::RunRecord solved = measured("grid_fluid", fluid);
     EXPECT_THAT(solved.validity, IsEmpty());
-    EXPECT_EQ(cellOf(solved, "pressure_unsolved"), Value(std::int64_t{0}));
+    EXPECT_EQ(cellOf(solved, "pressure_unsolved"), results::Value(std::int64_t{0}));
     fluid["tolerance"] = "1e-7";  // below the precision of floats
     EXPECT_THAT(measured("grid_fluid", fluid).validity, testing::ElementsAre(HasSubstr("pressure_unsolved is ")));
     fluid["pressure"] = "jacobi";
-    const RunRecord swept = measured("grid_fluid", fluid);
+    const results::RunRecord swept = measured("grid_fluid", fluid);
     EXPECT_THAT(swept.validity, IsEmpty());
-    EXPECT_EQ(cellOf(swept, "pressure_unsolved"), Value());
+    EXPECT_EQ(cellOf(swept, "pressure_unsolved"), results::Value());
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

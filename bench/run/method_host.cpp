@@ -8,15 +8,15 @@
 #include "methods/kit/draw/read_back.h"
 #include "methods/kit/gpu/buffer.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace {
 
 double asNumber(const FactValue& value) {
     return std::visit([](const auto number) { return static_cast<double>(number); }, value);
 }
 
-Value asCell(const FactValue& value) {
-    return std::visit([](const auto number) { return Value(number); }, value);
+results::Value asCell(const FactValue& value) {
+    return std::visit([](const auto number) { return results::Value(number); }, value);
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ bool takesGpuDust(const MethodInfo& method, const ParameterValues& parameters) {
     return method.takesGpuDust && method.takesGpuDust(parameters);
 }
 
-MethodHost::MethodHost(const World& world, gpu::Device& device, const MethodInfo& info,
+MethodHost::MethodHost(const world::World& world, gpu::Device& device, const MethodInfo& info,
                        const ParameterValues& parameters, int width, int height)
     : world_(world),
       device_(device),
@@ -67,21 +67,26 @@ void MethodHost::resize(int width, int height) {
 Frame MethodHost::see(std::int64_t index, const StageClock& clock) {
     view_ = world_.view(width_, height_);
     const GpuPuffs* const onGpu = world_.gpuDust();
-    if (!onGpu) return {index, stepSeconds, world_.state(), world_.dust(), view_, clock};
+    if (!onGpu) return {index, world::stepSeconds, world_.state(), world_.dust(), view_, clock};
     if (takesGpuDust_) {
         Puffs none;
         none.uniformColour = onGpu->colour == nullptr;
         none.colourOfAll = onGpu->colourOfAll;
-        return {index, stepSeconds, world_.state(), none, view_, clock, onGpu};
+        return {index, world::stepSeconds, world_.state(), none, view_, clock, onGpu};
     }
     const auto timing = clock.measure(Stage::upload);
-    return {index, stepSeconds, world_.state(), world_.dust(), view_, clock};
+    return {index, world::stepSeconds, world_.state(), world_.dust(), view_, clock};
 }
 
 Frame MethodHost::seeParticles(std::int64_t index, const StageClock& clock) {
     view_ = world_.view(width_, height_);
-    return {
-        index, stepSeconds, world_.state(), world_.dust(), view_, clock, takesGpuDust_ ? world_.gpuDust() : nullptr};
+    return {index,
+            world::stepSeconds,
+            world_.state(),
+            world_.dust(),
+            view_,
+            clock,
+            takesGpuDust_ ? world_.gpuDust() : nullptr};
 }
 
 void MethodHost::update(const Frame& frame) {
@@ -117,9 +122,9 @@ pictures::Image MethodHost::picture() const {
     return pictures::over(layer(), draw::readBack(scene_->colour()));
 }
 
-DrawnMoment MethodHost::drawn(const Frame& frame, bool withDetail) {
+reference::DrawnMoment MethodHost::drawn(const Frame& frame, bool withDetail) {
     draw(frame);
-    DrawnMoment moment;
+    reference::DrawnMoment moment;
     moment.scene = draw::readBack(scene_->colour());
     moment.layer = layer();
     moment.sceneDepth = draw::readBackDepth(scene_->depth());
@@ -148,11 +153,11 @@ void MethodHost::keepMaxima(const Frame& frame) {
             maxima_[i] = value;
 }
 
-Columns MethodHost::facts(const Frame& lastFrame) {
+results::Columns MethodHost::facts(const Frame& lastFrame) {
     if (method_->reportsAtEnd()) keepMaxima(lastFrame);
     Facts atEnd(info_.facts, FactOver::lastFrame);
     method_->report(lastFrame, atEnd);
-    Columns columns;
+    results::Columns columns;
     for (std::size_t i = 0; i < maxima_.size(); ++i) {
         const FactInfo& fact = info_.facts[i];
         const auto value = fact.over == FactOver::lastFrame ? atEnd.value(fact.name) : maxima_[i];
@@ -177,25 +182,25 @@ std::int64_t MethodHost::cpuBytes() const {
     return static_cast<std::int64_t>(bytes);
 }
 
-void requireDustPlace(const RunSpec& spec, const World& world) {
-    if (spec.dustOn != DustOn::gpu) return;
+void requireDustPlace(const results::RunSpec& spec, const world::World& world) {
+    if (spec.dustOn != results::DustOn::gpu) return;
     if (const std::string why = world.whyDustStaysOnCpu(); !why.empty())
         throw InputError(fmt::format("dust_on: got gpu, but {} has no shader, allowed: cpu|auto", why));
 }
 
-DustPlace placeDust(const RunSpec& spec, World& world, gpu::Device& device) {
+measure::DustPlace placeDust(const results::RunSpec& spec, world::World& world, gpu::Device& device) {
     requireDustPlace(spec, world);
-    const DustPlace requested{std::string(dustPlaces.wordOf(spec.dustOn)), "requested"};
-    if (spec.dustOn == DustOn::cpu) return requested;
-    if (spec.dustOn == DustOn::automatic) {
+    const measure::DustPlace requested{std::string(results::dustPlaces.wordOf(spec.dustOn)), "requested"};
+    if (spec.dustOn == results::DustOn::cpu) return requested;
+    if (spec.dustOn == results::DustOn::automatic) {
         if (device.isSoftware()) return {"cpu", "software device"};
         if (const std::string why = world.whyDustStaysOnCpu(); !why.empty()) return {"cpu", why + " has no shader"};
     }
     world.moveDustTo(device);
-    return spec.dustOn == DustOn::gpu ? requested : DustPlace{"gpu", "hardware device"};
+    return spec.dustOn == results::DustOn::gpu ? requested : measure::DustPlace{"gpu", "hardware device"};
 }
 
-std::string readBackWarning(const World& world, const MethodInfo& info, const ParameterValues& parameters) {
+std::string readBackWarning(const world::World& world, const MethodInfo& info, const ParameterValues& parameters) {
     if (!world.gpuDust() || takesGpuDust(info, parameters)) return {};
     return fmt::format(
         "dust_on=gpu: the method {} takes no GPU buffers with these parameters, so each frame reads the dust back, "
@@ -203,4 +208,4 @@ std::string readBackWarning(const World& world, const MethodInfo& info, const Pa
         info.id);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

@@ -21,7 +21,7 @@
 #include "methods/kit/memory/memory_ledger.h"
 #include "methods/kit/pictures/image.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 
 /// Why the method cannot show this scene, its lights included; empty if it can.
 [[nodiscard]] std::string whyNotTaken(const MethodInfo& method, const scene::Scene& scene);
@@ -32,8 +32,8 @@ namespace dustbench::bench {
 class MethodHost {
  public:
     /// Prepares the method for the world. `world`, `device` and `info` must outlive the host.
-    MethodHost(const World& world, gpu::Device& device, const MethodInfo& info, const ParameterValues& parameters,
-               int width, int height);
+    MethodHost(const world::World& world, gpu::Device& device, const MethodInfo& info,
+               const ParameterValues& parameters, int width, int height);
 
     /// Sets the size of the pictures. Does not change the state of the method.
     void resize(int width, int height);
@@ -59,13 +59,13 @@ class MethodHost {
     /// The layer over its scene, linear.
     [[nodiscard]] pictures::Image picture() const;
     /// Draws the frame outside all timing. `withDetail`: also draws the layer without the scene.
-    [[nodiscard]] DrawnMoment drawn(const Frame& frame, bool withDetail);
+    [[nodiscard]] reference::DrawnMoment drawn(const Frame& frame, bool withDetail);
 
     /// Updates the facts that are maxima over all recorded frames, unless the method reports them at the end. Call
     /// after a recorded frame, untimed.
     void keepFacts(const Frame& frame);
     /// All facts that the method reports, by column; facts of the last frame are queried now.
-    [[nodiscard]] Columns facts(const Frame& lastFrame);
+    [[nodiscard]] results::Columns facts(const Frame& lastFrame);
 
     [[nodiscard]] const Method& method() const { return *method_; }
     /// Primitives of the last `draw`. May read back their number, or that of particles.
@@ -78,7 +78,7 @@ class MethodHost {
  private:
     void keepMaxima(const Frame& frame);
 
-    const World& world_;
+    const world::World& world_;
     gpu::Device& device_;
     const MethodInfo& info_;
     MemoryLedger ledger_;
@@ -97,14 +97,14 @@ class MethodHost {
 };
 
 /// Throws InputError, which names what has no shader, if the run requests the GPU for dust that cannot live there.
-void requireDustPlace(const RunSpec& spec, const World& world);
+void requireDustPlace(const results::RunSpec& spec, const world::World& world);
 
 /// Moves the dust to the device if the run requests it; `auto`: if the device is hardware and the dust can live there.
 /// Call before the first step. Returns the choice and the reason: `gpu` and `hardware device`.
-DustPlace placeDust(const RunSpec& spec, World& world, gpu::Device& device);
+measure::DustPlace placeDust(const results::RunSpec& spec, world::World& world, gpu::Device& device);
 
 /// The warning of a run whose method needs the dust read back; empty for other methods.
-[[nodiscard]] std::string readBackWarning(const World& world, const MethodInfo& info,
+[[nodiscard]] std::string readBackWarning(const world::World& world, const MethodInfo& info,
                                           const ParameterValues& parameters);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

@@ -11,35 +11,35 @@
 #include "bench/run/run_forecast.h"
 #include "bench/run/run_messages.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace fs = std::filesystem;
 namespace {
 
-std::string nameOf(const PlannedRun& run) {
+std::string nameOf(const suite::PlannedRun& run) {
     return run.spec.method + " " + run.spec.scene + (run.label.empty() ? "" : " " + run.label);
 }
 
 }  // namespace
 
-PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& results, ExecutionOptions& options,
-                          ExecutionListener& listener) {
+PlanForecast forecastPlan(const std::vector<suite::PlannedRun>& plan, results::ResultsFolder& results,
+                          ExecutionOptions& options, ExecutionListener& listener) {
     using Clock = std::chrono::steady_clock;
-    const std::vector<const PlannedRun*> toDo = runsToDo(plan, results, options);
+    const std::vector<const suite::PlannedRun*> toDo = runsToDo(plan, results, options);
     PlanForecast result;
     result.runs = toDo.size();
     // One run per configuration, with metrics if any of its runs has them.
-    std::map<std::string, const PlannedRun*> cells;
-    for (const PlannedRun* run : toDo) {
+    std::map<std::string, const suite::PlannedRun*> cells;
+    for (const suite::PlannedRun* run : toDo) {
         if (!run->skip.empty()) continue;
-        const PlannedRun*& chosen = cells[cellOf(run->spec)];
+        const suite::PlannedRun*& chosen = cells[cellOf(run->spec)];
         if (chosen == nullptr || run->spec.metricPlan) chosen = run;
     }
     std::size_t begun = 0;
     for (const auto& [key, run] : cells) {
         listener.progressed(fmt::format("begun {} {}", begun++, cells.size()));
-        const std::string id = runId(run->spec);
+        const std::string id = results::runId(run->spec);
         const fs::path folder = results.beginRun(id);
-        writeWhole(folder / "spec.json", specToJson(run->spec));
+        exports::writeWhole(folder / "spec.json", results::specToJson(run->spec));
         std::optional<RunForecast> forecast;
         ChildCommand command;
         command.argv = options.forecastCommand(folder / "spec.json", folder);
@@ -74,4 +74,4 @@ PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& re
     return result;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

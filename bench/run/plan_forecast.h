@@ -8,7 +8,7 @@
 
 #include "bench/run/executor.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 
 struct PlanForecast {
     std::size_t runs = 0;  ///< runs still to do
@@ -19,7 +19,7 @@ struct PlanForecast {
 };
 
 /// Sets `options.forecasts` for all runs to do; the listener hears `begun 3 48`.
-[[nodiscard]] PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& results,
+[[nodiscard]] PlanForecast forecastPlan(const std::vector<suite::PlannedRun>& plan, results::ResultsFolder& results,
                                         ExecutionOptions& options, ExecutionListener& listener);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

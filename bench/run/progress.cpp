@@ -7,7 +7,7 @@
 #include <optional>
 #include <sstream>
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace {
 
 /// `frames 12 120`.
@@ -40,14 +40,14 @@ std::string durationText(double seconds) {
     return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
-std::string progressLine(std::size_t position, std::size_t total, const PlannedRun& run, int repetitions,
+std::string progressLine(std::size_t position, std::size_t total, const suite::PlannedRun& run, int repetitions,
                          double etaSeconds) {
     return fmt::format("[{}/{}] {} {} {}rep {}/{} ETA {}", position, total, run.spec.method, run.spec.scene,
                        run.label.empty() ? "" : run.label + " ", run.spec.repetition, repetitions,
                        durationText(etaSeconds));
 }
 
-std::string progressSentence(std::size_t position, std::size_t total, const PlannedRun& run, int repetitions,
+std::string progressSentence(std::size_t position, std::size_t total, const suite::PlannedRun& run, int repetitions,
                              double etaSeconds) {
     return fmt::format("run {} of {}: {} in {}{}{}, repetition {} of {}{}", position, total, run.spec.method,
                        run.spec.scene, run.label.empty() ? "" : ", ", run.label, run.spec.repetition, repetitions,
@@ -75,4 +75,4 @@ std::string_view phaseOf(std::string_view line) {
     return line.substr(0, line.find(' '));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

@@ -7,18 +7,18 @@
 
 #include "bench/suite/suite.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 
 /// `3 s`, `4 min 05 s`, `1 h 12 min`; `?` for a negative time.
 [[nodiscard]] std::string durationText(double seconds);
 
 /// `[3/48] billboard flat particles=1000 speed=20 rep 2/5 ETA 4 min 05 s`
-[[nodiscard]] std::string progressLine(std::size_t position, std::size_t total, const PlannedRun& run, int repetitions,
-                                       double etaSeconds);
+[[nodiscard]] std::string progressLine(std::size_t position, std::size_t total, const suite::PlannedRun& run,
+                                       int repetitions, double etaSeconds);
 
 /// The same as a sentence, for logs: `run 3 of 48: billboard in flat, particles=1000 speed=20, repetition 2 of 5; about
 /// 4 min 05 s left`.
-[[nodiscard]] std::string progressSentence(std::size_t position, std::size_t total, const PlannedRun& run,
+[[nodiscard]] std::string progressSentence(std::size_t position, std::size_t total, const suite::PlannedRun& run,
                                            int repetitions, double etaSeconds);
 
 /// For `frames 12 120`, which is 10 %: `[#####…] frames 12/120` on a terminal `width` columns wide. Empty for other
@@ -30,4 +30,4 @@ namespace dustbench::bench {
 /// `frames` of `frames 12 120`.
 [[nodiscard]] std::string_view phaseOf(std::string_view line);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

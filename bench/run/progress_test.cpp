@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-namespace dustbench::bench {
+namespace dustbench::run {
 
 TEST(Progress, LineSaysWhereWhatAndHowLong) {
-    PlannedRun run;
+    suite::PlannedRun run;
     run.spec.method = "billboard";
     run.spec.scene = "flat";
     run.spec.repetition = 2;
@@ -39,4 +39,4 @@ TEST(Progress, PhasesAreSentencesInLogs) {
     EXPECT_EQ(phaseSentence("hello", 10), "hello");
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

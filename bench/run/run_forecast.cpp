@@ -11,7 +11,7 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/gpu/device.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 
 namespace fs = std::filesystem;
 namespace {
@@ -27,15 +27,15 @@ double seconds(std::int64_t nanoseconds) {
     return 1e-9 * static_cast<double>(nanoseconds);
 }
 
-FramesBegun beginFrames(RunSpec spec, const fs::path& folder) {
+FramesBegun beginFrames(results::RunSpec spec, const fs::path& folder) {
     spec.metricPlan.reset();
     FramesBegun begun;
-    const double untilCall = secondsSinceProcessStart();
-    const std::int64_t called = steadyNow();
+    const double untilCall = measure::secondsSinceProcessStart();
+    const std::int64_t called = measure::steadyNow();
     std::int64_t first = 0, last = 0, frames = -1;
     const auto onProgress = [&](std::string_view phase, std::int64_t, std::int64_t) {
         if (phase == "preroll") return;
-        last = steadyNow();
+        last = measure::steadyNow();
         if (++frames == 0) first = last;
         if (frames >= minimumFrames && seconds(last - first) >= minimumSeconds) throw Enough();
     };
@@ -44,24 +44,24 @@ FramesBegun beginFrames(RunSpec spec, const fs::path& folder) {
     } catch (const Enough&) {
     }
     // A method that does not support the scene has no frames.
-    begun.untilFrames = untilCall + seconds((frames < 0 ? steadyNow() : first) - called);
+    begun.untilFrames = untilCall + seconds((frames < 0 ? measure::steadyNow() : first) - called);
     if (frames > 0) begun.perFrame = seconds(last - first) / static_cast<double>(frames);
     return begun;
 }
 
 /// The metrics of the shortest run that has every kind of frame: plain ones, a moment, the beginning of a stretch.
-MetricsBegun beginMetrics(RunSpec spec, const fs::path& folder, gpu::Device& device) {
+MetricsBegun beginMetrics(results::RunSpec spec, const fs::path& folder, gpu::Device& device) {
     // A second moment after the end, so that work that continues up to the last moment is included.
     constexpr std::int64_t moment = 1, stretch = 2, end = 4;
     spec.warmup = 1;
-    spec.frames = stretch + PoppingSummary::minimumPairs + 1;
-    spec.metricPlan->moments = FrameRange{moment, end + 1, end + 1 - moment};
+    spec.frames = stretch + measure::PoppingSummary::minimumPairs + 1;
+    spec.metricPlan->moments = exports::FrameRange{moment, end + 1, end + 1 - moment};
 
-    const std::int64_t called = steadyNow();
+    const std::int64_t called = measure::steadyNow();
     std::map<std::int64_t, double> begins;  // of each frame, since the call
     const auto onProgress = [&](std::string_view, std::int64_t step, std::int64_t steps) {
         const std::int64_t frame = step - (steps - spec.frames);
-        begins[frame] = seconds(steadyNow() - called);
+        begins[frame] = seconds(measure::steadyNow() - called);
         if (frame == end) throw Enough();
     };
     try {
@@ -76,13 +76,13 @@ MetricsBegun beginMetrics(RunSpec spec, const fs::path& folder, gpu::Device& dev
 
 }  // namespace
 
-RunForecast extrapolate(const RunSpec& spec, const FramesBegun& frames, const MetricsBegun& metrics) {
+RunForecast extrapolate(const results::RunSpec& spec, const FramesBegun& frames, const MetricsBegun& metrics) {
     RunForecast forecast;
     forecast.measuring = frames.untilFrames + frames.perFrame * static_cast<double>(spec.warmup + spec.frames);
     if (!spec.metricPlan) return forecast;
     const std::vector<std::int64_t> moments = spec.metricPlan->momentsOf(spec.frames);
     std::int64_t stretch = 0;
-    for (const std::int64_t frame : MetricPlan::stretchOf(spec.frames))
+    for (const std::int64_t frame : reference::MetricPlan::stretchOf(spec.frames))
         if (!std::ranges::binary_search(moments, frame)) ++stretch;
     const auto evaluated = static_cast<std::int64_t>(moments.size());
     const std::int64_t plain = spec.warmup + spec.frames - evaluated - stretch;
@@ -92,44 +92,44 @@ RunForecast extrapolate(const RunSpec& spec, const FramesBegun& frames, const Me
     return forecast;
 }
 
-RunForecast forecastRun(const RunSpec& spec, const fs::path& folder) {
+RunForecast forecastRun(const results::RunSpec& spec, const fs::path& folder) {
     const FramesBegun frames = beginFrames(spec, folder);
     if (!spec.metricPlan || frames.perFrame == 0) return extrapolate(spec, frames, {});
     MetricsBegun metrics;
     withThreads(spec.threads, [&] {
         gpu::Device device;
         const MethodInfo& info = findMethod(spec.method);
-        const auto method = info.create(resolveParameters(info, spec.parameters).method);
+        const auto method = info.create(results::resolveParameters(info, spec.parameters).method);
         if (whyNotEvaluated(*spec.metricPlan, *method).empty()) metrics = beginMetrics(spec, folder, device);
     });
     return extrapolate(spec, frames, metrics);
 }
 
-std::string cellOf(RunSpec run) {
+std::string cellOf(results::RunSpec run) {
     run.repetition = 1;
     run.seed = 1;
     run.metricPlan.reset();
-    return canonicalKey(run);
+    return results::canonicalKey(run);
 }
 
-void ForecastByCell::set(const RunSpec& cell, const RunForecast& forecast) {
+void ForecastByCell::set(const results::RunSpec& cell, const RunForecast& forecast) {
     byCell_[cellOf(cell)] = forecast;
 }
 
-double ForecastByCell::seconds(const RunSpec& run) const {
+double ForecastByCell::seconds(const results::RunSpec& run) const {
     const auto found = byCell_.find(cellOf(run));
     if (found == byCell_.end()) return -1;
     return run.metricPlan ? found->second.seconds() : found->second.measuring;
 }
 
-RemainingTime::RemainingTime(const std::vector<const PlannedRun*>& toDo, const ForecastByCell& forecasts,
+RemainingTime::RemainingTime(const std::vector<const suite::PlannedRun*>& toDo, const ForecastByCell& forecasts,
                              double cooldownSeconds) {
-    for (const PlannedRun* run : toDo) {
-        RunSpec cell = run->spec;
+    for (const suite::PlannedRun* run : toDo) {
+        results::RunSpec cell = run->spec;
         cell.repetition = 1;
         const double forecast = forecasts.seconds(run->spec);
         const double rest = runs_.empty() ? 0 : cooldownSeconds;
-        runs_.push_back({canonicalKey(cell), forecast < 0 ? forecast : forecast + rest});
+        runs_.push_back({results::canonicalKey(cell), forecast < 0 ? forecast : forecast + rest});
     }
 }
 
@@ -158,4 +158,4 @@ double RemainingTime::seconds() const {
     return sum;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

@@ -14,7 +14,7 @@
 #include "bench/results/run_spec.h"
 #include "bench/suite/suite.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 
 struct RunForecast {
     double measuring = 0;   ///< from the start of the process to the last frame
@@ -35,23 +35,24 @@ struct MetricsBegun {
     double perStretchFrame = 0;  ///< a frame of the consecutive frames for popping
 };
 /// The time of the complete run: each timing multiplied by its number in it.
-[[nodiscard]] RunForecast extrapolate(const RunSpec& spec, const FramesBegun& frames, const MetricsBegun& metrics);
+[[nodiscard]] RunForecast extrapolate(const results::RunSpec& spec, const FramesBegun& frames,
+                                      const MetricsBegun& metrics);
 
 /// Starts the run in this process, which must do nothing else. Discard the files in `folder`. Throws as measureRun
 /// does.
-[[nodiscard]] RunForecast forecastRun(const RunSpec& spec, const std::filesystem::path& folder);
+[[nodiscard]] RunForecast forecastRun(const results::RunSpec& spec, const std::filesystem::path& folder);
 
 /// Identifies the configuration of a run: equal for all repetitions and seeds, with and without metrics. Another seed
 /// gives another cloud of the same size.
-[[nodiscard]] std::string cellOf(RunSpec run);
+[[nodiscard]] std::string cellOf(results::RunSpec run);
 
 /// The forecasts of a list of runs, by configuration (cell).
 class ForecastByCell {
  public:
     /// Sets the forecast for all repetitions and seeds of a configuration.
-    void set(const RunSpec& cell, const RunForecast& forecast);
+    void set(const results::RunSpec& cell, const RunForecast& forecast);
     /// Includes the metrics only if the run has them. Negative if unknown.
-    [[nodiscard]] double seconds(const RunSpec& run) const;
+    [[nodiscard]] double seconds(const results::RunSpec& run) const;
 
  private:
     std::map<std::string, RunForecast> byCell_;
@@ -61,7 +62,7 @@ class ForecastByCell {
 class RemainingTime {
  public:
     /// `toDo` are the runs still to do, in order, with a pause before each except the first.
-    explicit RemainingTime(const std::vector<const PlannedRun*>& toDo, const ForecastByCell& forecasts = {},
+    explicit RemainingTime(const std::vector<const suite::PlannedRun*>& toDo, const ForecastByCell& forecasts = {},
                            double cooldownSeconds = 0);
 
     /// Records the duration of the run at `position` in the list, including the pause before it.
@@ -86,4 +87,4 @@ class RemainingTime {
     Ended all_;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

@@ -8,7 +8,7 @@
 
 #include "methods/kit/files/printable.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace {
 
 constexpr std::string_view forecastStart = "forecast ", errorStart = "error ";
@@ -49,4 +49,4 @@ std::optional<RunError> errorIn(std::string_view line) {
     return RunError{static_cast<RunError::Kind>(kind - kindNames.begin()), std::string(line)};
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

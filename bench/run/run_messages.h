@@ -12,7 +12,7 @@
 
 #include "bench/run/run_forecast.h"
 
-namespace dustbench::bench {
+namespace dustbench::run {
 
 struct RunError {
     enum class Kind {
@@ -35,4 +35,4 @@ struct RunError {
 [[nodiscard]] std::optional<RunForecast> forecastIn(std::string_view line);
 [[nodiscard]] std::optional<RunError> errorIn(std::string_view line);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dustbench::bench {
+namespace dustbench::run {
 namespace {
 
 std::string_view withoutEnd(const std::string& line) {
@@ -45,4 +45,4 @@ TEST(RunMessages, OtherLinesAreNeither) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::run

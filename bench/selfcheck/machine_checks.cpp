@@ -21,19 +21,19 @@
 #include "methods/kit/gpu/texture.h"
 #include "methods/kit/gpu/vertex_array.h"
 
-namespace dustbench::bench {
+namespace dustbench::selfcheck {
 
-std::vector<Check> machineChecks(const Provenance& provenance) {
+std::vector<Check> machineChecks(const measure::Provenance& provenance) {
     constexpr double coarseNs = 1000;
     const double readingNs = provenance.clock.readingNs;
     std::vector<Check> checks{{"clock", readingNs < coarseNs ? Outcome::ok : Outcome::attention,
                                fmt::format("{:.0f} ns per reading", readingNs), fmt::format("below {} ns", coarseNs)}};
-    for (const std::string& disturbance : disturbances(provenance.machine))
+    for (const std::string& disturbance : measure::disturbances(provenance.machine))
         checks.push_back({"machine", Outcome::attention, disturbance, ""});
     return checks;
 }
 
-Check throttlingCheck(const Machine& before, const Machine& after) {
+Check throttlingCheck(const measure::Machine& before, const measure::Machine& after) {
     const auto events = after.throttled - before.throttled;
     return {"throttling", events > 0 ? Outcome::attention : Outcome::ok, fmt::format("{} events", events), "none",
             events > 0 ? "the processor became too hot: times vary" : ""};
@@ -292,4 +292,4 @@ std::vector<Check> rateChecks(const DeviceRates& rates, bool isSoftware) {
              "compute shader, read plus written"}};
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::selfcheck

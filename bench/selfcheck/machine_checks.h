@@ -15,15 +15,15 @@
 #include "bench/selfcheck/selfcheck_report.h"
 #include "methods/kit/gpu/device.h"
 
-namespace dustbench::bench {
+namespace dustbench::selfcheck {
 
 /// The resolution of the clock and one check for each disturbance that `dustbench env` reports.
-[[nodiscard]] std::vector<Check> machineChecks(const Provenance& provenance);
+[[nodiscard]] std::vector<Check> machineChecks(const measure::Provenance& provenance);
 /// Throttling of the processor between two readings.
-[[nodiscard]] Check throttlingCheck(const Machine& before, const Machine& after);
+[[nodiscard]] Check throttlingCheck(const measure::Machine& before, const measure::Machine& after);
 
 struct GpuClockReadings {
-    std::optional<GpuClockReading> before{}, during{}, after{};  ///< empty where the clock cannot be read
+    std::optional<measure::GpuClockReading> before{}, during{}, after{};  ///< empty where the clock cannot be read
 };
 /// Needs attention where the clock under load is limited, or falls below the clock at rest.
 [[nodiscard]] Check gpuClockCheck(const GpuClockReadings& readings);
@@ -43,4 +43,4 @@ struct DeviceRates {
 /// One line for each rate. On hardware, slow fragment shaders need attention: frame rates there mislead.
 [[nodiscard]] std::vector<Check> rateChecks(const DeviceRates& rates, bool isSoftware);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::selfcheck

@@ -15,7 +15,7 @@
 #include "methods/kit/files/toml_reader.h"
 #include "methods/kit/pictures/image.h"
 
-namespace dustbench::bench {
+namespace dustbench::selfcheck {
 namespace fs = std::filesystem;
 namespace {
 
@@ -23,8 +23,8 @@ using Reference = PlannedPicture::Reference;
 constexpr Choices<Reference> references{
     {"kept", Reference::kept}, {"exact", Reference::exact}, {"variant", Reference::variant}};
 
-ParameterTexts parametersOf(files::TomlReader table) {
-    ParameterTexts given;
+results::ParameterTexts parametersOf(files::TomlReader table) {
+    results::ParameterTexts given;
     for (const std::string& key : table.keys()) {
         const std::vector<std::string> values = table.scalars(key);
         if (values.size() != 1)
@@ -34,10 +34,10 @@ ParameterTexts parametersOf(files::TomlReader table) {
     return given;
 }
 
-PlannedPicture readPicture(files::TomlReader& table, ImageSize size) {
+PlannedPicture readPicture(files::TomlReader& table, results::ImageSize size) {
     PlannedPicture picture;
     picture.name = table.text("name");
-    RunSpec& spec = picture.spec;
+    results::RunSpec& spec = picture.spec;
     spec.method = table.text("method");
     spec.scene = table.text("scene", spec.scene);
     spec.drive = table.text("drive", "");
@@ -47,7 +47,7 @@ PlannedPicture readPicture(files::TomlReader& table, ImageSize size) {
     spec.imagesEvery = 1;
     spec.timed = false;
     picture.flipLimit = table.number("flip", 0, 1);
-    ParameterTexts given, instead;
+    results::ParameterTexts given, instead;
     if (table.has("parameters")) given = parametersOf(table.table("parameters"));
     if (table.has("variant")) {
         picture.reference = Reference::variant;
@@ -55,7 +55,7 @@ PlannedPicture readPicture(files::TomlReader& table, ImageSize size) {
     }
     if (table.has("reference")) picture.reference = table.choice("reference", references);
     if (picture.reference == Reference::exact) {
-        spec.frames = minimumMoments;
+        spec.frames = reference::minimumMoments;
         spec.metricPlan.emplace();
     }
     table.finish();
@@ -65,35 +65,36 @@ PlannedPicture readPicture(files::TomlReader& table, ImageSize size) {
     }
     if (picture.reference == Reference::variant) {
         picture.variant = spec;
-        ParameterTexts changed = given;
+        results::ParameterTexts changed = given;
         for (const auto& [name, value] : instead) changed[name] = value;
-        picture.variant->parameters = canonicalParameters(findMethod(spec.method), changed);
+        picture.variant->parameters = results::canonicalParameters(findMethod(spec.method), changed);
     }
-    spec.parameters = canonicalParameters(findMethod(spec.method), given);
+    spec.parameters = results::canonicalParameters(findMethod(spec.method), given);
     return picture;
 }
 
-fs::path pictureOf(const ResultsFolder& results, const RunSpec& spec) {
-    return results.runFolder(runId(spec)) / "images" / "f000000.png";
+fs::path pictureOf(const results::ResultsFolder& results, const results::RunSpec& spec) {
+    return results.runFolder(results::runId(spec)) / "images" / "f000000.png";
 }
 
 /// Why the run has no picture; empty if it has one.
-std::string whyNoPicture(const ResultsFolder& results, const RunSpec& spec) {
-    const auto run = results.runs().find(runId(spec));
+std::string whyNoPicture(const results::ResultsFolder& results, const results::RunSpec& spec) {
+    const auto run = results.runs().find(results::runId(spec));
     if (run == results.runs().end()) return "not drawn";
-    return run->second.status == RunStatus::done ? "" : run->second.reason;
+    return run->second.status == results::RunStatus::done ? "" : run->second.reason;
 }
 
 /// FLIP against `reference`; saves the map as `difference` where it exceeds the limit.
 double compared(const fs::path& reference, const fs::path& picture, double limit, const fs::path& difference) {
-    const Measured found = flip(preparePicture(pictures::readImage(reference), reference.string()),
-                                preparePicture(pictures::readImage(picture), picture.string()));
+    const measure::Measured found =
+        measure::flip(measure::preparePicture(pictures::readImage(reference), reference.string()),
+                      measure::preparePicture(pictures::readImage(picture), picture.string()));
     if (!found.value) throw InputError(reference.string() + ": too small to compare");
-    if (*found.value > limit) pictures::writeImage(heatMap(found.map), difference);
+    if (*found.value > limit) pictures::writeImage(measure::heatMap(found.map), difference);
     return *found.value;
 }
 
-Check checkOf(const PlannedPicture& planned, const ResultsFolder& results, const fs::path& kept,
+Check checkOf(const PlannedPicture& planned, const results::ResultsFolder& results, const fs::path& kept,
               const fs::path& drawn) {
     Check check{"picture " + planned.name, Outcome::failed, "", fmt::format("FLIP at most {}", planned.flipLimit)};
     if (!planned.skip.empty()) {
@@ -101,7 +102,7 @@ Check checkOf(const PlannedPicture& planned, const ResultsFolder& results, const
         check.measured = planned.skip;
         return check;
     }
-    for (const RunSpec* spec : {&planned.spec, planned.variant ? &*planned.variant : nullptr}) {
+    for (const results::RunSpec* spec : {&planned.spec, planned.variant ? &*planned.variant : nullptr}) {
         if (!spec) continue;
         check.measured = whyNoPicture(results, *spec);
         if (!check.measured.empty()) return check;
@@ -110,7 +111,7 @@ Check checkOf(const PlannedPicture& planned, const ResultsFolder& results, const
     fs::copy_file(pictureOf(results, planned.spec), picture, fs::copy_options::overwrite_existing);
     double error = 0;
     if (planned.reference == Reference::exact) {
-        error = std::stod(results.runs().at(runId(planned.spec)).cells.at("flip"));
+        error = std::stod(results.runs().at(results::runId(planned.spec)).cells.at("flip"));
         check.note = "against the ground truth, computed on the CPU";
     } else {
         const fs::path reference =
@@ -131,7 +132,7 @@ Check checkOf(const PlannedPicture& planned, const ResultsFolder& results, const
 
 std::vector<PlannedPicture> readPlannedPictures(const fs::path& file) {
     files::TomlReader toml = files::TomlReader::parseFile(file);
-    const ImageSize size = parseSize(toml.text("size"));
+    const results::ImageSize size = results::parseSize(toml.text("size"));
     std::vector<PlannedPicture> planned;
     std::set<std::string> names;
     for (files::TomlReader& table : toml.tables("picture")) {
@@ -145,19 +146,20 @@ std::vector<PlannedPicture> readPlannedPictures(const fs::path& file) {
 }
 
 std::vector<Check> pictureChecks(const std::vector<PlannedPicture>& planned, const fs::path& kept,
-                                 const fs::path& drawn, const ExecutionOptions& options, ExecutionListener& listener) {
+                                 const fs::path& drawn, const run::ExecutionOptions& options,
+                                 run::ExecutionListener& listener) {
     fs::create_directories(drawn);
-    std::vector<PlannedRun> plan;
+    std::vector<suite::PlannedRun> plan;
     std::set<std::string> ids, seen;
     for (const PlannedPicture& picture : planned) {
         seen.insert(picture.spec.method);
         if (!picture.skip.empty()) continue;
-        for (const RunSpec* spec : {&picture.spec, picture.variant ? &*picture.variant : nullptr})
-            if (spec && ids.insert(runId(*spec)).second) plan.push_back({*spec, picture.name});
+        for (const results::RunSpec* spec : {&picture.spec, picture.variant ? &*picture.variant : nullptr})
+            if (spec && ids.insert(results::runId(*spec)).second) plan.push_back({*spec, picture.name});
     }
-    const TemporaryFolder folder;
-    ResultsFolder results(folder.path());
-    (void)execute(plan, 1, results, options, listener);
+    const results::TemporaryFolder folder;
+    results::ResultsFolder results(folder.path());
+    (void)run::execute(plan, 1, results, options, listener);
     std::vector<Check> checks;
     checks.reserve(planned.size() + 1);
     for (const PlannedPicture& picture : planned) checks.push_back(checkOf(picture, results, kept, drawn));
@@ -170,4 +172,4 @@ std::vector<Check> pictureChecks(const std::vector<PlannedPicture>& planned, con
     return checks;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::selfcheck

@@ -12,15 +12,15 @@
 #include "bench/run/executor.h"
 #include "bench/selfcheck/selfcheck_report.h"
 
-namespace dustbench::bench {
+namespace dustbench::selfcheck {
 
 struct PlannedPicture {
     enum class Reference { kept, exact, variant };
 
     std::string name;
     Reference reference = Reference::kept;
-    RunSpec spec;
-    std::optional<RunSpec> variant{};  ///< the run whose picture is the reference
+    results::RunSpec spec;
+    std::optional<results::RunSpec> variant{};  ///< the run whose picture is the reference
     double flipLimit = 0;
     std::string skip{};  ///< why it cannot be drawn; empty if it can
 };
@@ -34,6 +34,6 @@ struct PlannedPicture {
 /// named in a check of their own.
 [[nodiscard]] std::vector<Check> pictureChecks(const std::vector<PlannedPicture>& planned,
                                                const std::filesystem::path& kept, const std::filesystem::path& drawn,
-                                               const ExecutionOptions& options, ExecutionListener& listener);
+                                               const run::ExecutionOptions& options, run::ExecutionListener& listener);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::selfcheck

@@ -8,9 +8,9 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/whole_text.h"
 
-namespace dustbench::bench {
+namespace dustbench::selfcheck {
 
-std::string selfcheckJson(const Provenance& provenance, const std::vector<Check>& checks) {
+std::string selfcheckJson(const measure::Provenance& provenance, const std::vector<Check>& checks) {
     using Json = nlohmann::ordered_json;
     Json list = Json::array();
     for (const Check& check : checks)
@@ -60,4 +60,4 @@ std::vector<std::string> selfcheckProblems(const std::filesystem::path& folder) 
     return problems;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::selfcheck

@@ -8,7 +8,7 @@
 #include "bench/measure/provenance.h"
 #include "methods/contract/choices.h"
 
-namespace dustbench::bench {
+namespace dustbench::selfcheck {
 
 /// attention: the program works around it, but results mean less. failed: results of this machine are wrong.
 enum class Outcome { ok, attention, failed };
@@ -25,10 +25,10 @@ struct Check {
 };
 
 /// An object with `passed`, `device`, `machine`, `program` and `checks`: `{name, outcome, measured, expected, note}`.
-[[nodiscard]] std::string selfcheckJson(const Provenance& provenance, const std::vector<Check>& checks);
+[[nodiscard]] std::string selfcheckJson(const measure::Provenance& provenance, const std::vector<Check>& checks);
 
 /// A sentence for each failed check of `folder`/selfcheck.json; none without this file. An unreadable file gives a
 /// sentence too.
 [[nodiscard]] std::vector<std::string> selfcheckProblems(const std::filesystem::path& folder);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::selfcheck

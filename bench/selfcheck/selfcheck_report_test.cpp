@@ -7,7 +7,7 @@
 
 #include "bench/results/temporary_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::selfcheck {
 namespace {
 
 using testing::ElementsAre;
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST(SelfcheckProblems, NameEachFailedCheckAndNothingElse) {
-    const TemporaryFolder folder;
+    const results::TemporaryFolder folder;
     EXPECT_THAT(selfcheckProblems(folder.path()), IsEmpty());
     const auto check = [](const std::string& name, const std::string& outcome) {
         return R"({"name": ")" + name + R"(", "outcome": ")" + outcome +
@@ -30,12 +30,11 @@ TEST(SelfcheckProblems, NameEachFailedCheckAndNothingElse) {
 
 TEST(SelfcheckProblems, SayThatAFileCannotBeRead) {
     for (const char* text : {"", "{", "[]", R"({"checks": [{"name": 1}]})"}) {
-        const TemporaryFolder folder;
+        const results::TemporaryFolder folder;
         std::ofstream(folder.path() / "selfcheck.json") << text;
         EXPECT_THAT(selfcheckProblems(folder.path()), ElementsAre(HasSubstr("cannot be read"))) << text;
     }
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::selfcheck

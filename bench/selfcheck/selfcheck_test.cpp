@@ -14,7 +14,7 @@
 #include "methods/kit/gpu/faulty_driver.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::selfcheck {
 namespace {
 
 using testing::ElementsAre;
@@ -92,7 +92,7 @@ TEST(DeviceRates, ArePositiveAndDataCentreGpusAreNamed) {
 }
 
 TEST(GpuClockCheck, NamesAClockThatIsHeldDownOrFalls) {
-    const GpuClockReading high{1800, ""}, low{900, ""}, hot{900, "heat"};
+    const measure::GpuClockReading high{1800, ""}, low{900, ""}, hot{900, "heat"};
     EXPECT_EQ(gpuClockCheck({low, high, high}).outcome, Outcome::ok);
     EXPECT_EQ(gpuClockCheck({high, low, high}).outcome, Outcome::attention);
     EXPECT_THAT(gpuClockCheck({low, hot, low}).note, HasSubstr("heat"));
@@ -100,7 +100,7 @@ TEST(GpuClockCheck, NamesAClockThatIsHeldDownOrFalls) {
 }
 
 TEST(ThrottlingCheck, CountsEventsDuringTheCheck) {
-    Machine before, after;
+    measure::Machine before, after;
     before.throttled = after.throttled = 7;
     EXPECT_EQ(throttlingCheck(before, after).outcome, Outcome::ok);
     after.throttled = 9;
@@ -154,4 +154,4 @@ TEST(SelfcheckJson, SaysWhetherAllPassed) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::selfcheck

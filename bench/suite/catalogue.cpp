@@ -15,7 +15,7 @@
 #include "methods/kit/particles/part.h"
 #include "methods/kit/particles/part_toml.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 /// Measured quantities, by column of summary.csv; defined in reports/SCHEMA.md and METRICS.md.
@@ -42,8 +42,9 @@ std::vector<CatalogueItem> listMetrics() {
     add("rss_peak_bytes", "maximum resident set of the run's process, bytes");
     add("particles_median", "median number of dust particles");
     add("primitives_median", "median number of primitives that the method drew");
-    for (const Metric& metric : metrics()) add(std::string(metric.column), std::string(metric.title));
-    for (const MethodFact& fact : methodFacts()) add(fact.info.name, fact.info.meaning + ", " + fact.info.unit);
+    for (const measure::Metric& metric : measure::metrics()) add(std::string(metric.column), std::string(metric.title));
+    for (const results::MethodFact& fact : results::methodFacts())
+        add(fact.info.name, fact.info.meaning + ", " + fact.info.unit);
     add("state_hash", "hash of vehicle and dust after the last frame (run.json)");
     add("method_hash", "hash of the method's own simulation after the last frame (run.json)");
     return items;
@@ -73,10 +74,10 @@ std::vector<CatalogueItem> listParts() {
     return items;
 }
 
-std::vector<CatalogueItem> fromData(const std::string& kind, const std::vector<DataEntry>& entries) {
+std::vector<CatalogueItem> fromData(const std::string& kind, const std::vector<world::DataEntry>& entries) {
     std::vector<CatalogueItem> items;
     items.reserve(entries.size());
-    for (const DataEntry& entry : entries)
+    for (const world::DataEntry& entry : entries)
         items.push_back({kind, entry.id, entry.description, "", "", {}, entry.panels});
     return items;
 }
@@ -100,8 +101,8 @@ const std::vector<std::string>& catalogueKinds() {
 
 std::vector<CatalogueItem> catalogue(const std::string& kind) {
     if (kind == "methods") return listMethods();
-    if (kind == "scenes") return fromData(kind, listScenes());
-    if (kind == "drives") return fromData(kind, listDrives());
+    if (kind == "scenes") return fromData(kind, world::listScenes());
+    if (kind == "drives") return fromData(kind, world::listDrives());
     if (kind == "suites") return listSuiteItems();
     if (kind == "experiments") return listExperiments();
     if (kind == "parts") return listParts();
@@ -119,15 +120,15 @@ CatalogueItem findItem(const std::string& kind, const std::vector<CatalogueItem>
 }
 
 const std::vector<Parameter>& worldParameterList() {
-    return worldParameters().all();
+    return world::worldParameters().all();
 }
 
 std::string catalogueJson(const std::vector<CatalogueItem>& items) {
-    std::vector<ListedItem> listed;
+    std::vector<results::ListedItem> listed;
     for (const CatalogueItem& item : items) {
-        ListedItem entry{{{"id", item.id}, {"kind", item.kind}, {"title", item.title}},
-                         item.parameters,
-                         item.kind == "methods" || item.kind == "parts"};
+        results::ListedItem entry{{{"id", item.id}, {"kind", item.kind}, {"title", item.title}},
+                                  item.parameters,
+                                  item.kind == "methods" || item.kind == "parts"};
         if (item.kind == "parts") {
             const std::size_t slash = item.id.find('/');
             entry.cells.emplace_back("part_kind", item.id.substr(0, slash));
@@ -139,7 +140,7 @@ std::string catalogueJson(const std::vector<CatalogueItem>& items) {
         if (!item.origin.empty()) entry.cells.emplace_back("origin", item.origin);
         listed.push_back(std::move(entry));
     }
-    return listToJson(listed);
+    return results::listToJson(listed);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -7,7 +7,7 @@
 
 #include "methods/contract/parameters.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 struct CatalogueItem {
     std::string kind;  ///< one of catalogueKinds()
@@ -36,4 +36,4 @@ struct CatalogueItem {
 /// An array of objects.
 [[nodiscard]] std::string catalogueJson(const std::vector<CatalogueItem>& items);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

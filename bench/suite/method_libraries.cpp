@@ -22,7 +22,7 @@
 #include "methods/kit/library/method_entry.h"
 #include "methods/kit/particles/part.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 namespace fs = std::filesystem;
 namespace {
@@ -256,4 +256,4 @@ std::string triedInChild(const std::function<std::string()>& task) {
     return WIFEXITED(status) && WEXITSTATUS(status) == done ? result.text() : howItEnded(status, errors.text());
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

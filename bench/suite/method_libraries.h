@@ -14,7 +14,7 @@
 #include "methods/contract/method.h"
 #include "methods/kit/particles/part.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 struct MethodLibrary {
     std::filesystem::path file;  ///< absolute
@@ -52,4 +52,4 @@ struct LibraryContents {
 /// this process starts threads. Throws std::system_error if the copy cannot be made.
 [[nodiscard]] std::string triedInChild(const std::function<std::string()>& task);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

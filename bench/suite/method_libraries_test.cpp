@@ -15,7 +15,7 @@
 #include "methods/kit/particles/part.h"
 #include "methods/kit/testing/test_input_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 using testing::HasSubstr;
@@ -129,5 +129,4 @@ TEST(TriedInChild, NothingIsPrintedHere) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

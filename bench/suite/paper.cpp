@@ -6,7 +6,7 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/toml_reader.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace fs = std::filesystem;
 
 fs::path paperFile(const std::string& id, const std::string& name) {
@@ -41,4 +41,4 @@ Paper loadPaper(const std::string& id) {
     return paper;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

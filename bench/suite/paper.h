@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 struct Paper {
     std::string id;
@@ -31,4 +31,4 @@ struct Paper {
 /// Throws InputError for an unknown id (with the nearest), or an error in its paper.toml.
 [[nodiscard]] Paper loadPaper(const std::string& id);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

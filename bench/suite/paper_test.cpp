@@ -6,7 +6,7 @@
 #include "bench/suite/suite.h"
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 TEST(Paper, EveryPaperOfTheProjectNamesSuitesThatExist) {
     EXPECT_THAT(listPapers(), testing::Contains("carr2006"));
@@ -26,4 +26,4 @@ TEST(Paper, AnUnknownPaperHasANearestName) {
     }
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -7,7 +7,7 @@
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 ComparedSide parseSide(const std::string& text, const std::vector<std::string>& methods) {
@@ -22,7 +22,8 @@ ComparedSide parseSide(const std::string& text, const std::vector<std::string>& 
         if (equals == std::string::npos || equals == 0)
             throw InputError("got '" + word + "', expected name=value after the method");
         const std::string name = word.substr(0, equals);
-        const std::string value = canonicalParameters(findMethod(side.method), {{name, word.substr(equals + 1)}})[name];
+        const std::string value =
+            results::canonicalParameters(findMethod(side.method), {{name, word.substr(equals + 1)}})[name];
         if (!side.pinned.emplace(name, value).second) throw InputError("got parameter '" + name + "' twice");
         side.label += " " + name + "=" + value;
     }
@@ -61,13 +62,13 @@ bool isRate(std::string_view column) {
 
 std::vector<std::string> comparableColumns() {
     std::vector<std::string> columns;
-    for (const std::string& name : columnsAfterParameters())
+    for (const std::string& name : results::columnsAfterParameters())
         if (isRate(name) || name.find("_ms_") != std::string::npos) columns.push_back(name);
     return columns;
 }
 
 std::vector<std::string> chartColumns() {
-    std::vector<std::string> columns = columnsAfterParameters();
+    std::vector<std::string> columns = results::columnsAfterParameters();
     std::erase_if(columns, [](const std::string& name) {
         return name.starts_with("FILE_") || name == "metric_reference" || name == "invalid";
     });
@@ -97,4 +98,4 @@ std::vector<PlannedFit> readFits(files::TomlReader& suite) {
     return fits;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

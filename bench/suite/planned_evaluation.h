@@ -8,12 +8,12 @@
 #include "bench/results/run_spec.h"
 #include "methods/kit/files/toml_reader.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 /// The configurations of one method, optionally only those with given parameters: `octree_search layout=morton`.
 struct ComparedSide {
     std::string method;
-    ParameterTexts pinned;  ///< in canonical form
+    results::ParameterTexts pinned;  ///< in canonical form
     std::string label;
 };
 
@@ -44,4 +44,4 @@ struct PlannedFit {
 /// Whether the column is a rate, which is the inverse of a time.
 [[nodiscard]] bool isRate(std::string_view column);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 /// 0: no limit.
 struct ResourceLimits {
@@ -11,4 +11,4 @@ struct ResourceLimits {
     std::int64_t cpuSeconds = 0;       ///< of all its threads together
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

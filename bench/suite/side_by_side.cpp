@@ -10,12 +10,12 @@
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 struct Variant {
     const MethodInfo* method;
-    ParameterTexts own;
+    results::ParameterTexts own;
 };
 
 Variant parseVariant(const std::string& text) {
@@ -29,7 +29,7 @@ Variant parseVariant(const std::string& text) {
         if (equals == std::string::npos || equals == 0)
             throw InputError(fmt::format("compare: got '{}', expected METHOD or METHOD:name=value,name=value", text));
         const std::string name = word.substr(0, equals);
-        if (worldParameters().find(name))
+        if (world::worldParameters().find(name))
             throw InputError(
                 fmt::format("compare: got '{}', but {} belongs to the world, which all methods share: set "
                             "it with -P",
@@ -41,18 +41,18 @@ Variant parseVariant(const std::string& text) {
 }
 
 /// Throws for a parameter that neither a method nor the world has.
-void requireKnown(const ParameterTexts& given, const std::vector<Variant>& variants) {
+void requireKnown(const results::ParameterTexts& given, const std::vector<Variant>& variants) {
     for (const auto& [name, value] : given) {
-        if (worldParameters().find(name)) continue;
+        if (world::worldParameters().find(name)) continue;
         if (std::ranges::any_of(variants, [&](const Variant& v) { return v.method->parameters.find(name); })) continue;
-        (void)resolveParameters(*variants.front().method, {{name, value}});  // throws
+        (void)results::resolveParameters(*variants.front().method, {{name, value}});  // throws
     }
 }
 
 }  // namespace
 
-Suite sideBySideSuite(const std::vector<std::string>& variants, const ParameterTexts& given, const RunSpec& base,
-                      int repetitions) {
+Suite sideBySideSuite(const std::vector<std::string>& variants, const results::ParameterTexts& given,
+                      const results::RunSpec& base, int repetitions) {
     if (variants.size() < 2)
         throw InputError(fmt::format("compare: got {} method, allowed: 2 or more", variants.size()));
     std::vector<Variant> parsed;
@@ -68,17 +68,17 @@ Suite sideBySideSuite(const std::vector<std::string>& variants, const ParameterT
     std::vector<ComparedSide> sides;
     for (std::size_t i = 0; i < parsed.size(); ++i) {
         const auto& [method, own] = parsed[i];
-        ParameterTexts values = own;
+        results::ParameterTexts values = own;
         for (const auto& [name, value] : given)
-            if (worldParameters().find(name) || method->parameters.find(name)) values.emplace(name, value);
+            if (world::worldParameters().find(name) || method->parameters.find(name)) values.emplace(name, value);
         PlannedRun cell{base, ""};
         cell.spec.method = method->id;
-        cell.spec.parameters = canonicalParameters(*method, values);
+        cell.spec.parameters = results::canonicalParameters(*method, values);
         if (!cell.spec.metricPlan) cell.spec.metricPlan.emplace();
-        requireFramesWithinRun(cell.spec);
+        results::requireFramesWithinRun(cell.spec);
         for (const auto& [name, value] : own)
             cell.label += (cell.label.empty() ? "" : " ") + name + "=" + cell.spec.parameters.at(name);
-        if (!seen.insert(runId(cell.spec)).second)
+        if (!seen.insert(results::runId(cell.spec)).second)
             throw InputError(
                 fmt::format("compare: got '{}' twice, expected different methods or parameters", variants[i]));
         sides.push_back({method->id, cell.spec.parameters, method->id + (cell.label.empty() ? "" : " " + cell.label)});
@@ -87,11 +87,11 @@ Suite sideBySideSuite(const std::vector<std::string>& variants, const ParameterT
     }
     for (std::size_t i = 1; i < sides.size(); ++i) {
         PlannedComparison comparison{sides[i], sides.front(), {"frame_ms_median"}, ""};
-        if (sides[i].method != baselineMethod && sides.front().method != baselineMethod)
+        if (sides[i].method != results::baselineMethod && sides.front().method != results::baselineMethod)
             comparison.columns.emplace_back("method_ms_median");
         suite.comparisons.push_back(std::move(comparison));
     }
     return suite;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

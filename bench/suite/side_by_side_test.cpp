@@ -5,7 +5,7 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 using testing::AllOf;
@@ -18,7 +18,7 @@ class MethodComparison : public testing::Test {
             GTEST_SKIP() << "no billboards here";
     }
     [[nodiscard]] static std::string refused(const std::vector<std::string>& variants,
-                                             const ParameterTexts& given = {}) {
+                                             const results::ParameterTexts& given = {}) {
         return inputError([&] { (void)sideBySideSuite(variants, given, {}, 6); });
     }
 };
@@ -65,4 +65,4 @@ TEST_F(MethodComparison, RefusesInOneLine) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -18,11 +18,11 @@
 #include "methods/kit/files/toml_reader.h"
 #include "methods/kit/maths/philox.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace fs = std::filesystem;
 namespace {
 
-bool covers(const Exception& exception, const RunSpec& cell) {
+bool covers(const Exception& exception, const results::RunSpec& cell) {
     const auto isOneOf = [](const std::string& value, const std::vector<std::string>& list) {
         return list.empty() || std::ranges::find(list, value) != list.end();
     };
@@ -30,12 +30,14 @@ bool covers(const Exception& exception, const RunSpec& cell) {
         const auto& [name, values] = parameter;
         const auto own = cell.parameters.find(name);
         return own != cell.parameters.end() && std::ranges::any_of(values, [&](const std::string& value) {
-                   return canonicalParameters(findMethod(cell.method), {{name, value}}).at(name) == own->second;
+                   return results::canonicalParameters(findMethod(cell.method), {{name, value}}).at(name) ==
+                          own->second;
                });
     };
-    const auto hasSize = [&](const ImageSize& size) {
-        return exception.sizes.empty() ||
-               std::ranges::any_of(exception.sizes, [&](const std::string& text) { return parseSize(text) == size; });
+    const auto hasSize = [&](const results::ImageSize& size) {
+        return exception.sizes.empty() || std::ranges::any_of(exception.sizes, [&](const std::string& text) {
+                   return results::parseSize(text) == size;
+               });
     };
     return isOneOf(cell.method, exception.methods) && isOneOf(cell.scene, exception.scenes) &&
            isOneOf(cell.drive, exception.drives) && hasSize(cell.size) &&
@@ -90,7 +92,7 @@ void requireNothingTimed(const SuiteDraft& draft) {
     if (!suite.fits.empty()) fail("'fit', which fits times");
     if (draft.baseline.value_or(false)) fail("'baseline = true', which compares times");
     if (suite.cooldownSeconds > 0) fail("'cooldown_s', which steadies times");
-    if (suite.chart.column.empty() || dependsOnSpeed(suite.chart.column))
+    if (suite.chart.column.empty() || results::dependsOnSpeed(suite.chart.column))
         fail(fmt::format("a chart that opens on '{}', expected 'chart' with a column that is not a time",
                          suite.chart.column.empty() ? "fps_avg" : suite.chart.column));
 }
@@ -128,18 +130,18 @@ void requireFewEnough(const SuiteDraft& draft) {
 /// `wholeFile`: an exception that excludes nothing is an error. In `[quick]`, which has fewer configurations, it is
 /// not.
 Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
-    requireFramesWithinRun(draft.base);
+    results::requireFramesWithinRun(draft.base);
     requireFewEnough(draft);
     requireNothingTimed(draft);
     Suite suite = std::move(draft.suite);
     for (const std::string& id : draft.methods) {
-        RunSpec base = draft.base;
+        results::RunSpec base = draft.base;
         base.method = id;
         if (const auto finer = draft.finerSettings.find(id); base.metricPlan && finer != draft.finerSettings.end())
             base.metricPlan->finer = finer->second;
         // The same in every world, so they are resolved once.
         const std::vector<PlannedRun> settings = expandParameters(base, findMethod(id), listsOf(draft, id));
-        for (const PlannedRun& setting : settings) requireChangesWithinRun(setting.spec);
+        for (const PlannedRun& setting : settings) results::requireChangesWithinRun(setting.spec);
         for (const std::string& scene : draft.scenes)
             for (const std::string& drive : draft.drives)
                 for (const std::string& size : draft.sizes)
@@ -147,7 +149,7 @@ Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
                         for (PlannedRun run : settings) {
                             run.spec.scene = scene;
                             run.spec.drive = drive;
-                            run.spec.size = parseSize(size);
+                            run.spec.size = results::parseSize(size);
                             run.spec.seed = seed;
                             if (draft.seeds.size() > 1) run.label = fmt::format("seed={} {}", seed, run.label);
                             if (draft.drives.size() > 1) run.label = drive + " " + run.label;
@@ -262,26 +264,28 @@ Suite parseSuite(std::string_view text, const std::string& name, bool quick) {
 void requireDifferentValues(const MethodInfo& method, const std::string& name, const std::vector<std::string>& values) {
     std::map<std::string, std::string> given;  // by canonical value
     for (const std::string& value : values)
-        if (const auto [first, isNew] = given.emplace(canonicalParameters(method, {{name, value}}).at(name), value);
+        if (const auto [first, isNew] =
+                given.emplace(results::canonicalParameters(method, {{name, value}}).at(name), value);
             !isNew)
             throw InputError(fmt::format("parameter {}: {} is given twice{}", name, value,
                                          value == first->second ? "" : ", also as " + first->second));
 }
 
-std::vector<PlannedRun> expandParameters(const RunSpec& base, const MethodInfo& method, const ParameterLists& lists) {
+std::vector<PlannedRun> expandParameters(const results::RunSpec& base, const MethodInfo& method,
+                                         const ParameterLists& lists) {
     requireFewEnough("-P", combinations(lists));
     for (const auto& [name, values] : lists) requireDifferentValues(method, name, values);
     std::vector<PlannedRun> runs;
     std::vector<std::size_t> choice(lists.size(), 0);
     for (;;) {
-        ParameterTexts given;
+        results::ParameterTexts given;
         std::string label;
         for (std::size_t i = 0; i < lists.size(); ++i) {
             given[lists[i].first] = lists[i].second[choice[i]];
             label += (i ? " " : "") + lists[i].first + "=" + lists[i].second[choice[i]];
         }
         runs.push_back({base, label});
-        runs.back().spec.parameters = canonicalParameters(method, given);
+        runs.back().spec.parameters = results::canonicalParameters(method, given);
 
         std::size_t digit = lists.size();
         while (digit > 0 && ++choice[digit - 1] == lists[digit - 1].second.size()) choice[--digit] = 0;
@@ -289,7 +293,7 @@ std::vector<PlannedRun> expandParameters(const RunSpec& base, const MethodInfo& 
     }
 }
 
-RunSpec inRepetition(RunSpec cell, int repetition) {
+results::RunSpec inRepetition(results::RunSpec cell, int repetition) {
     cell.repetition = repetition;
     if (repetition > 1) cell.metricPlan.reset();
     return cell;
@@ -327,4 +331,4 @@ std::vector<PlannedRun> planRuns(const Suite& cellsOnly) {
     return plan;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

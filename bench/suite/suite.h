@@ -14,10 +14,10 @@
 #include "bench/suite/planned_evaluation.h"
 #include "bench/suite/resource_limits.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 struct PlannedRun {
-    RunSpec spec;
+    results::RunSpec spec;
     std::string label;    ///< the parameters that the suite sets: `particles=1000 speed=20`
     int repetitions = 0;  ///< if fewer than those of the suite; 0: the same number
     std::string skip{};   ///< why the suite excludes it; recorded as skipped. Empty: it runs
@@ -64,7 +64,7 @@ struct Suite {
 
 /// One run of a configuration; repetitions count from 1. Only the first has metrics: pictures do not depend on the
 /// repetition.
-[[nodiscard]] RunSpec inRepetition(RunSpec cell, int repetition);
+[[nodiscard]] results::RunSpec inRepetition(results::RunSpec cell, int repetition);
 /// All runs in order, including those of the null method (suite_plan.h).
 [[nodiscard]] std::vector<PlannedRun> planRuns(const Suite& suite);
 
@@ -75,7 +75,7 @@ void requireDifferentValues(const MethodInfo& method, const std::string& name, c
 
 /// `base` with every combination of the values set and labelled; the last parameter changes fastest. Throws InputError
 /// for more than files::limits::plannedRuns combinations, and for values that are given twice.
-[[nodiscard]] std::vector<PlannedRun> expandParameters(const RunSpec& base, const MethodInfo& method,
+[[nodiscard]] std::vector<PlannedRun> expandParameters(const results::RunSpec& base, const MethodInfo& method,
                                                        const ParameterLists& lists);
 
 struct SuiteFile {
@@ -86,4 +86,4 @@ struct SuiteFile {
 /// Every suite in the data folders, sorted by id.
 [[nodiscard]] std::vector<SuiteFile> listSuites();
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

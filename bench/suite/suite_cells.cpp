@@ -9,11 +9,11 @@
 #include "bench/world/world.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 Axis parameterAxis(const std::string& name) {
-    return {name, [name](const RunSpec& spec) {
+    return {name, [name](const results::RunSpec& spec) {
                 const auto found = spec.parameters.find(name);
                 return found == spec.parameters.end() ? std::string() : found->second;
             }};
@@ -28,7 +28,7 @@ std::set<std::string> parameterNames(std::span<const PlannedRun* const> cells) {
 
 }  // namespace
 
-std::string worldKey(const RunSpec& spec) {
+std::string worldKey(const results::RunSpec& spec) {
     std::string key =
         fmt::format("{}\n{}\n{}x{}\n{}\n", spec.scene, spec.drive, spec.size.width, spec.size.height, spec.seed);
     for (const auto& [name, text] : spec.parameters)
@@ -38,15 +38,15 @@ std::string worldKey(const RunSpec& spec) {
 }
 
 bool isOfTheWorld(std::string_view parameter) {
-    return worldParameters().find(parameter) != nullptr;
+    return world::worldParameters().find(parameter) != nullptr;
 }
 
 std::vector<Axis> worldAxes(std::span<const PlannedRun* const> cells) {
     std::vector<Axis> axes{
-        {"scene", [](const RunSpec& spec) { return spec.scene; }},
-        {"drive", [](const RunSpec& spec) { return spec.drive; }},
-        {"size", [](const RunSpec& spec) { return fmt::format("{}x{}", spec.size.width, spec.size.height); }},
-        {"seed", [](const RunSpec& spec) { return fmt::format("{}", spec.seed); }}};
+        {"scene", [](const results::RunSpec& spec) { return spec.scene; }},
+        {"drive", [](const results::RunSpec& spec) { return spec.drive; }},
+        {"size", [](const results::RunSpec& spec) { return fmt::format("{}x{}", spec.size.width, spec.size.height); }},
+        {"seed", [](const results::RunSpec& spec) { return fmt::format("{}", spec.seed); }}};
     for (const std::string& name : parameterNames(cells))
         if (isOfTheWorld(name)) axes.push_back(parameterAxis(name));
     std::erase_if(axes, [cells](const Axis& axis) {
@@ -69,7 +69,7 @@ std::vector<Axis> methodAxes(std::span<const PlannedRun* const> cells) {
     return axes;
 }
 
-std::string labelOf(const std::vector<Axis>& axes, const RunSpec& spec) {
+std::string labelOf(const std::vector<Axis>& axes, const results::RunSpec& spec) {
     std::string label;
     for (const Axis& axis : axes)
         if (const std::string value = axis.of(spec); !value.empty())
@@ -84,38 +84,39 @@ std::vector<const PlannedRun*> cellsOf(const Suite& suite) {
     return cells;
 }
 
-const StoredRun* doneRun(const PlannedRun& cell, int repetition, const StoredRuns& runs) {
-    const auto found = runs.find(runId(inRepetition(cell.spec, repetition)));
-    return found != runs.end() && found->second.status == RunStatus::done ? &found->second : nullptr;
+const results::StoredRun* doneRun(const PlannedRun& cell, int repetition, const results::StoredRuns& runs) {
+    const auto found = runs.find(results::runId(inRepetition(cell.spec, repetition)));
+    return found != runs.end() && found->second.status == results::RunStatus::done ? &found->second : nullptr;
 }
 
-std::vector<const StoredRun*> doneRuns(const PlannedRun& cell, int repetitions, const StoredRuns& runs) {
-    std::vector<const StoredRun*> done;
+std::vector<const results::StoredRun*> doneRuns(const PlannedRun& cell, int repetitions,
+                                                const results::StoredRuns& runs) {
+    std::vector<const results::StoredRun*> done;
     for (int repetition = 1; repetition <= repetitions; ++repetition)
-        if (const StoredRun* run = doneRun(cell, repetition, runs)) done.push_back(run);
+        if (const results::StoredRun* run = doneRun(cell, repetition, runs)) done.push_back(run);
     return done;
 }
 
-const StoredRun* validRun(const PlannedRun& cell, int repetition, const StoredRuns& runs) {
-    const StoredRun* run = doneRun(cell, repetition, runs);
-    return run && whyInvalid(*run).empty() ? run : nullptr;
+const results::StoredRun* validRun(const PlannedRun& cell, int repetition, const results::StoredRuns& runs) {
+    const results::StoredRun* run = doneRun(cell, repetition, runs);
+    return run && results::whyInvalid(*run).empty() ? run : nullptr;
 }
 
-std::vector<const StoredRun*> validOf(std::vector<const StoredRun*> done) {
-    std::erase_if(done, [](const StoredRun* run) { return !whyInvalid(*run).empty(); });
+std::vector<const results::StoredRun*> validOf(std::vector<const results::StoredRun*> done) {
+    std::erase_if(done, [](const results::StoredRun* run) { return !results::whyInvalid(*run).empty(); });
     return done;
 }
 
-std::optional<double> numberIn(const StoredRun& run, std::string_view column) {
+std::optional<double> numberIn(const results::StoredRun& run, std::string_view column) {
     const auto found = run.cells.find(column);
     return found == run.cells.end() ? std::nullopt : files::numberOf(found->second);
 }
 
-std::vector<double> numbersIn(const std::vector<const StoredRun*>& runs, std::string_view column) {
+std::vector<double> numbersIn(const std::vector<const results::StoredRun*>& runs, std::string_view column) {
     std::vector<double> numbers;
-    for (const StoredRun* run : runs)
+    for (const results::StoredRun* run : runs)
         if (const auto number = numberIn(*run, column)) numbers.push_back(*number);
     return numbers;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -14,7 +14,7 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/limits.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 constexpr std::int64_t maximumFrames = 10'000'000;
@@ -52,7 +52,8 @@ void readParameters(const SuiteDraft& draft, files::TomlReader& table, const std
     for (const std::string& name : table.keys()) {
         const std::vector<std::string> values = readValues(draft, table, name);
         for (const std::string& id : methodIds) try {
-                for (const std::string& value : values) (void)resolveParameters(findMethod(id), {{name, value}});
+                for (const std::string& value : values)
+                    (void)results::resolveParameters(findMethod(id), {{name, value}});
                 requireDifferentValues(findMethod(id), name, values);
             } catch (const InputError& error) {
                 throw at(table.where(name), error);
@@ -119,7 +120,7 @@ std::vector<std::string> allMethods() {
 }
 
 /// `volumes` requests volumes; the other keys refine it.
-void readVolumes(files::TomlReader& table, std::optional<VolumeSettings>& volumes) {
+void readVolumes(files::TomlReader& table, std::optional<exports::VolumeSettings>& volumes) {
     const auto read = [&](const std::string& key, const auto& apply) {
         if (!table.has(key)) return;
         if (!volumes)
@@ -132,22 +133,24 @@ void readVolumes(files::TomlReader& table, std::optional<VolumeSettings>& volume
         }
     };
     if (table.has("volumes") && !volumes) volumes.emplace();
-    read("volumes", [&](const std::string& key) { volumes->frames = parseFrameRange(key, table.text(key, "")); });
+    read("volumes",
+         [&](const std::string& key) { volumes->frames = exports::parseFrameRange(key, table.text(key, "")); });
     read("formats", [&](const std::string& key) {
         std::string joined;
         for (const std::string& name : table.texts(key)) joined.append(joined.empty() ? "" : ",").append(name);
-        volumes->formats = parseFormats(joined);
+        volumes->formats = exports::parseFormats(joined);
     });
     read("resolution", [&](const std::string& key) {
-        volumes->resolution = static_cast<int>(table.integer(key, 1, maximumCellsPerEdge, volumes->resolution));
+        volumes->resolution =
+            static_cast<int>(table.integer(key, 1, exports::maximumCellsPerEdge, volumes->resolution));
     });
-    read("region", [&](const std::string& key) { volumes->region = parseRegion(table.text(key, "")); });
-    for (const ExporterOption& option : exporterOptions())
+    read("region", [&](const std::string& key) { volumes->region = exports::parseRegion(table.text(key, "")); });
+    for (const exports::ExporterOption& option : exports::exporterOptions())
         read(option.id, [&](const std::string& key) { volumes->setOption(key, table.text(key, "")); });
 }
 
 /// `metrics` requests metrics; `metric_frames` and `metric_pictures` refine it.
-void readMetricPlan(files::TomlReader& table, std::optional<MetricPlan>& metricPlan) {
+void readMetricPlan(files::TomlReader& table, std::optional<reference::MetricPlan>& metricPlan) {
     if (table.has("metrics")) {
         if (!table.boolean("metrics", false))
             metricPlan.reset();
@@ -161,7 +164,7 @@ void readMetricPlan(files::TomlReader& table, std::optional<MetricPlan>& metricP
     if (!table.has("metric_frames")) return;
     const std::string text = table.text("metric_frames", "");
     try {
-        metricPlan->moments = parseFrameRange("metric_frames", text);
+        metricPlan->moments = exports::parseFrameRange("metric_frames", text);
     } catch (const InputError& error) {
         throw at(table.where("metric_frames"), error);
     }
@@ -174,7 +177,7 @@ void readFinerSettings(files::TomlReader& table, SuiteDraft& draft) {
         if (std::ranges::find(draft.methods, id) == draft.methods.end())
             throw at(perMethod.where(id), unknownName("method of this suite", id, draft.methods));
         files::TomlReader settings = perMethod.table(id);
-        ParameterTexts& finer = draft.finerSettings[id];
+        results::ParameterTexts& finer = draft.finerSettings[id];
         for (const std::string& name : settings.keys()) {
             const std::vector<std::string> values = readValues(draft, settings, name);
             if (values.size() != 1)
@@ -267,8 +270,9 @@ void SuiteDraft::read(files::TomlReader& table) {
     readDataNames(*this, table, "drives", ".csv", drives);
     if (table.has("dust")) base.dust = usableDust(*this, table);
     if (table.has("dust_columns")) base.dustColumns = files::fromFile(file, table.text("dust_columns"), ".toml");
-    readNames(table, "sizes", sizes, [](const std::string& size) { (void)parseSize(size); });
-    if (table.has("sizes")) requireOnce(table, "sizes", sizes, [](const std::string& size) { return parseSize(size); });
+    readNames(table, "sizes", sizes, [](const std::string& size) { (void)results::parseSize(size); });
+    if (table.has("sizes"))
+        requireOnce(table, "sizes", sizes, [](const std::string& size) { return results::parseSize(size); });
 
     base.frames = table.integer("frames", 1, maximumFrames, base.frames);
     base.warmup = table.integer("warmup", 0, maximumFrames, base.warmup);
@@ -281,8 +285,8 @@ void SuiteDraft::read(files::TomlReader& table) {
         base.timed = table.boolean("times", true);
         timesWhere = table.where("times");
     }
-    if (table.has("dust_on")) base.dustOn = table.choice("dust_on", dustPlaces);
-    if (table.has("sync")) base.sync = table.choice("sync", syncs);
+    if (table.has("dust_on")) base.dustOn = table.choice("dust_on", results::dustPlaces);
+    if (table.has("sync")) base.sync = table.choice("sync", results::syncs);
 
     suite.title = table.text("title", suite.title);
     suite.summary = table.text("summary", suite.summary);
@@ -333,4 +337,4 @@ void setList(ParameterLists& lists, const std::string& name, std::vector<std::st
         lists.emplace_back(name, std::move(values));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

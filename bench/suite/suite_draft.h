@@ -11,7 +11,7 @@
 #include "bench/suite/suite.h"
 #include "methods/kit/files/toml_reader.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 /// An `[[except]]` table: excludes configurations that match one value of every non-empty list.
 struct Exception {
@@ -30,11 +30,11 @@ struct SuiteDraft {
     std::vector<std::string> drives{""};
     std::vector<std::string> sizes{"640x480"};
     std::vector<std::uint64_t> seeds{1};
-    RunSpec base;
+    results::RunSpec base;
     Suite suite;
     ParameterLists parameters;
     std::vector<std::pair<std::string, ParameterLists>> methodParameters;
-    std::map<std::string, ParameterTexts> finerSettings;  ///< by method: settings of its reference
+    std::map<std::string, results::ParameterTexts> finerSettings;  ///< by method: settings of its reference
     std::vector<Exception> exceptions;
     std::string chartWhere;        ///< `file:line: ` of `chart`, for messages
     std::string timesWhere;        ///< the same for `times`
@@ -48,4 +48,4 @@ struct SuiteDraft {
 /// Replaces the values of a parameter, or appends it.
 void setList(ParameterLists& lists, const std::string& name, std::vector<std::string> values);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -9,7 +9,7 @@
 #include "bench/suite/suite.h"
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 using testing::AllOf;
@@ -37,10 +37,10 @@ TEST(SuiteMetrics, LeavesMetricsOutAlone) {
         EXPECT_EQ(cell.skip, "");
         if (!cell.spec.metricPlan) continue;
         EXPECT_FALSE(cell.spec.metricPlan->keepsPictures);
-        RunSpec withPictures = cell.spec;
+        results::RunSpec withPictures = cell.spec;
         withPictures.metricPlan->keepsPictures = true;
-        EXPECT_NE(runId(withPictures), runId(cell.spec));
-        EXPECT_EQ(runId(specFromJson(specToJson(cell.spec))), runId(cell.spec));
+        EXPECT_NE(results::runId(withPictures), results::runId(cell.spec));
+        EXPECT_EQ(results::runId(results::specFromJson(results::specToJson(cell.spec))), results::runId(cell.spec));
     }
     EXPECT_THAT(faultOf("[[except]]\nonly = \"metrics\"\n"), HasSubstr("matches no configuration"));
     EXPECT_THAT(faultOf("metrics = true\n[[except]]\nonly = \"metrics\"\nreason = \"late\"\n"),
@@ -76,5 +76,4 @@ TEST(GivenTwice, IsRefusedInWhateverForm) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

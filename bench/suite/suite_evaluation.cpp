@@ -11,7 +11,7 @@
 #include "bench/suite/suite_cells.h"
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 std::vector<const PlannedRun*> selectedCells(const Suite& suite, const ComparedSide& side) {
@@ -34,9 +34,9 @@ std::string ratioText(double ratio) {
 
 /// The pair's ln(of / with); empty if a run is missing or has no time above 0.
 std::optional<double> logRatio(const CellPair& pair, int repetition, const std::string& column,
-                               const StoredRuns& runs) {
-    const StoredRun* of = validRun(*pair.of, repetition, runs);
-    const StoredRun* with = validRun(*pair.with, repetition, runs);
+                               const results::StoredRuns& runs) {
+    const results::StoredRun* of = validRun(*pair.of, repetition, runs);
+    const results::StoredRun* with = validRun(*pair.with, repetition, runs);
     if (!of || !with) return std::nullopt;
     const auto a = numberIn(*of, column), b = numberIn(*with, column);
     if (!a || !b || !(*a > 0) || !(*b > 0)) return std::nullopt;
@@ -45,23 +45,23 @@ std::optional<double> logRatio(const CellPair& pair, int repetition, const std::
 }
 
 /// The difference between the machines if both runs are done on different ones; else empty.
-std::string otherMachine(const CellPair& pair, int repetition, const StoredRuns& runs) {
-    const StoredRun* of = doneRun(*pair.of, repetition, runs);
-    const StoredRun* with = doneRun(*pair.with, repetition, runs);
+std::string otherMachine(const CellPair& pair, int repetition, const results::StoredRuns& runs) {
+    const results::StoredRun* of = doneRun(*pair.of, repetition, runs);
+    const results::StoredRun* with = doneRun(*pair.with, repetition, runs);
     if (!of || !with) return {};
-    const auto found = differences(*of, *with, machineFields());
+    const auto found = results::differences(*of, *with, results::machineFields());
     if (found.empty()) return {};
     return fmt::format("pairs from different machines were left out ({}: '{}' and '{}')", found.front().field,
                        found.front().first, found.front().second);
 }
 
 /// Why a run is invalid if both runs are done; empty if both are valid.
-std::string invalidIn(const CellPair& pair, int repetition, const StoredRuns& runs) {
-    const StoredRun* of = doneRun(*pair.of, repetition, runs);
-    const StoredRun* with = doneRun(*pair.with, repetition, runs);
+std::string invalidIn(const CellPair& pair, int repetition, const results::StoredRuns& runs) {
+    const results::StoredRun* of = doneRun(*pair.of, repetition, runs);
+    const results::StoredRun* with = doneRun(*pair.with, repetition, runs);
     if (!of || !with) return {};
-    const std::string why = whyInvalid(*of);
-    return why.empty() ? whyInvalid(*with) : why;
+    const std::string why = results::whyInvalid(*of);
+    return why.empty() ? results::whyInvalid(*with) : why;
 }
 
 /// The pairs left out of a verdict, as a clause: those from different machines, and invalid ones with their count.
@@ -83,14 +83,14 @@ struct LeftOut {
 
 CellVerdict evaluated(std::vector<std::string> at, const std::vector<double>& logRatios, Order order,
                       const LeftOut& leftOut) {
-    CellVerdict verdict{std::move(at), evaluateLogRatios(logRatios), ""};
+    CellVerdict verdict{std::move(at), measure::evaluateLogRatios(logRatios), ""};
     if (logRatios.empty() && leftOut.invalid == 0)
         verdict.reason = "no paired runs with a time above 0";
-    else if (!logRatios.empty() && logRatios.size() < minimumPairs)
+    else if (!logRatios.empty() && logRatios.size() < measure::minimumPairs)
         verdict.reason = fmt::format("{} paired {}, {} are needed", logRatios.size(),
-                                     logRatios.size() == 1 ? "run" : "runs", minimumPairs);
+                                     logRatios.size() == 1 ? "run" : "runs", measure::minimumPairs);
     if (order == Order::batch) {
-        verdict.result.verdict = Verdict::unresolved;
+        verdict.result.verdict = measure::Verdict::unresolved;
         verdict.reason = "the runs were not interleaved";
     }
     if (const std::string text = leftOut.text(); !text.empty())
@@ -99,7 +99,7 @@ CellVerdict evaluated(std::vector<std::string> at, const std::vector<double>& lo
 }
 
 ColumnVerdict evaluateColumn(const Suite& suite, const MatchedCells& matched, const std::string& column,
-                             const StoredRuns& runs) {
+                             const results::StoredRuns& runs) {
     ColumnVerdict verdict{column, {}, {}};
     const auto rounds = static_cast<std::size_t>(suite.repetitions);
     std::vector<double> sums(rounds, 0);
@@ -133,7 +133,7 @@ ColumnVerdict evaluateColumn(const Suite& suite, const MatchedCells& matched, co
 }
 
 std::string conclusion(const ComparisonResult& comparison, const ColumnVerdict& column) {
-    const PairedRatio& result = column.overall.result;
+    const measure::PairedRatio& result = column.overall.result;
     std::string text = fmt::format("{}: {} ", column.column, comparison.of);
     if (result.pairs == 0)
         text += fmt::format("against {}", comparison.with);
@@ -142,8 +142,8 @@ std::string conclusion(const ComparisonResult& comparison, const ColumnVerdict& 
     else
         text += fmt::format("takes {} [{}, {}] of the time of {}", ratioText(result.ratio), ratioText(result.low),
                             ratioText(result.high), comparison.with);
-    text += fmt::format(": {}", verdictName(result.verdict));
-    if (result.verdict == Verdict::same) text += fmt::format(" within {:g} %", sameMargin * 100);
+    text += fmt::format(": {}", measure::verdictName(result.verdict));
+    if (result.verdict == measure::Verdict::same) text += fmt::format(" within {:g} %", measure::sameMargin * 100);
     return text + (column.overall.reason.empty() ? "" : ": " + column.overall.reason);
 }
 
@@ -160,7 +160,7 @@ MatchedCells matchCells(const Suite& suite, const PlannedComparison& comparison)
     const auto pinned = [&](const std::string& name) {
         return comparison.of.pinned.contains(name) || comparison.with.pinned.contains(name);
     };
-    const auto showTheSame = [&](const RunSpec& a, const RunSpec& b) {
+    const auto showTheSame = [&](const results::RunSpec& a, const results::RunSpec& b) {
         return a.scene == b.scene && a.drive == b.drive && a.size.width == b.size.width &&
                a.size.height == b.size.height && std::ranges::all_of(a.parameters, [&](const auto& entry) {
                    const std::string& name = entry.first;
@@ -196,7 +196,7 @@ MatchedCells matchCells(const Suite& suite, const PlannedComparison& comparison)
     return matched;
 }
 
-std::vector<ComparisonResult> suiteVerdicts(const Suite& suite, const StoredRuns& runs) {
+std::vector<ComparisonResult> suiteVerdicts(const Suite& suite, const results::StoredRuns& runs) {
     std::vector<ComparisonResult> results;
     for (const PlannedComparison& comparison : suite.comparisons) {
         const MatchedCells matched = matchCells(suite, comparison);
@@ -219,7 +219,8 @@ TextRows tabulate(const ComparisonResult& comparison) {
         for (const double value : {cell.result.ratio, cell.result.low, cell.result.high})
             row.push_back(ratioText(value));
         row.push_back(fmt::format("{}", cell.result.pairs));
-        row.push_back(std::string(verdictName(cell.result.verdict)) + (cell.reason.empty() ? "" : ": " + cell.reason));
+        row.push_back(std::string(measure::verdictName(cell.result.verdict)) +
+                      (cell.reason.empty() ? "" : ": " + cell.reason));
         table.rows.push_back(std::move(row));
     };
     for (const ColumnVerdict& column : comparison.columns) {
@@ -248,7 +249,7 @@ std::optional<double> loadOf(const PlannedRun& cell, const std::string& paramete
     return load;
 }
 
-std::string withInterval(const Estimate& estimate) {
+std::string withInterval(const measure::Estimate& estimate) {
     if (!std::isfinite(estimate.value)) return "";
     const std::string value = fmt::format("{:.4g}", estimate.value);
     return std::isfinite(estimate.plusMinus) ? fmt::format("{} ± {:.2g}", value, estimate.plusMinus) : value;
@@ -278,13 +279,13 @@ std::vector<LoadedCells> cellsByLoad(const Suite& suite, const PlannedFit& fit) 
     return groups;
 }
 
-std::vector<FitResult> fitSuite(const Suite& suite, const StoredRuns& runs) {
+std::vector<FitResult> fitSuite(const Suite& suite, const results::StoredRuns& runs) {
     std::vector<FitResult> results;
     for (const PlannedFit& planned : suite.fits) {
         FitResult result{planned.against, {}};
         for (const std::string& column : planned.columns)
             for (const LoadedCells& group : cellsByLoad(suite, planned)) {
-                std::vector<CostPoint> points;
+                std::vector<measure::CostPoint> points;
                 std::size_t invalid = 0;
                 for (const PlannedRun* cell : group.cells) {
                     const auto done = doneRuns(*cell, suite.repetitions, runs);
@@ -293,7 +294,7 @@ std::vector<FitResult> fitSuite(const Suite& suite, const StoredRuns& runs) {
                     for (const double number : numbersIn(valid, column))
                         points.push_back({*loadOf(*cell, planned.against), isRate(column) ? 1000 / number : number});
                 }
-                result.curves.push_back({column, group.label, fitCost(points), invalid});
+                result.curves.push_back({column, group.label, measure::fitCost(points), invalid});
             }
         results.push_back(std::move(result));
     }
@@ -304,7 +305,8 @@ TextRows tabulate(const FitResult& result) {
     TextRows table{{"column", "method", "a [ms]", "b", "k", "loads", "runs", "scatter", "note"}, {}};
     for (const auto& [column, label, fit, invalid] : result.curves) {
         std::vector<std::string> row{column, label};
-        for (const Estimate& estimate : {fit.fixedMs, fit.factor, fit.exponent}) row.push_back(withInterval(estimate));
+        for (const measure::Estimate& estimate : {fit.fixedMs, fit.factor, fit.exponent})
+            row.push_back(withInterval(estimate));
         row.push_back(std::to_string(fit.loads));
         row.push_back(std::to_string(fit.runs));
         row.push_back(std::isfinite(fit.relativeError) ? fmt::format("{:.1f} %", 100 * fit.relativeError) : "");
@@ -317,4 +319,4 @@ TextRows tabulate(const FitResult& result) {
     return table;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

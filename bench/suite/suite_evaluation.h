@@ -19,7 +19,7 @@
 #include "bench/suite/suite_cells.h"
 #include "bench/suite/suite_table.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 struct CellPair {
     const PlannedRun* of = nullptr;
@@ -37,7 +37,7 @@ struct MatchedCells {
 
 struct CellVerdict {
     std::vector<std::string> at;  ///< a value for each axis; all empty for all configurations together
-    PairedRatio result;
+    measure::PairedRatio result;
     std::string reason;  ///< why there are not enough data for a verdict, or what was left out; else empty
 };
 
@@ -55,7 +55,7 @@ struct ComparisonResult {
     std::vector<ColumnVerdict> columns;
 };
 
-[[nodiscard]] std::vector<ComparisonResult> suiteVerdicts(const Suite& suite, const StoredRuns& runs);
+[[nodiscard]] std::vector<ComparisonResult> suiteVerdicts(const Suite& suite, const results::StoredRuns& runs);
 
 /// A row for each column and pair of configurations: ratio, interval, pairs and verdict; then `build_ms_median, all`.
 [[nodiscard]] TextRows tabulate(const ComparisonResult& comparison);
@@ -74,7 +74,7 @@ struct LoadedCells {
 
 struct FittedCurve {
     std::string column, label;
-    CostFit fit;              ///< from valid runs
+    measure::CostFit fit;     ///< from valid runs
     std::size_t invalid = 0;  ///< number of invalid runs, which are left out
 };
 
@@ -83,9 +83,9 @@ struct FitResult {
     std::vector<FittedCurve> curves;
 };
 
-[[nodiscard]] std::vector<FitResult> fitSuite(const Suite& suite, const StoredRuns& runs);
+[[nodiscard]] std::vector<FitResult> fitSuite(const Suite& suite, const results::StoredRuns& runs);
 
 /// A row for each curve: a, b and k with their intervals, loads and runs; without a fit, the reason.
 [[nodiscard]] TextRows tabulate(const FitResult& result);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

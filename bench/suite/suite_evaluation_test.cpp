@@ -9,7 +9,7 @@
 
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 using testing::ElementsAre;
@@ -32,24 +32,24 @@ columns = ["sort_ms_median", "fps_avg"]
 /// Runs of every configuration: `timeOf` gives the sort time in ms by configuration and repetition, empty for a missing
 /// run.
 template <typename TimeOf>
-StoredRuns runsOf(const Suite& suite, const TimeOf& timeOf) {
-    StoredRuns runs;
+results::StoredRuns runsOf(const Suite& suite, const TimeOf& timeOf) {
+    results::StoredRuns runs;
     for (const PlannedRun& cell : suite.cells)
         for (int repetition = 1; repetition <= suite.repetitions; ++repetition) {
             const double ms = timeOf(cell.spec.parameters, repetition);
             if (std::isnan(ms)) continue;
-            RunSpec spec = cell.spec;
+            results::RunSpec spec = cell.spec;
             spec.repetition = repetition;
-            StoredRun run;
+            results::StoredRun run;
             run.cells = {{"sort_ms_median", fmt::format("{}", ms)}, {"fps_avg", fmt::format("{}", 1000 / ms)}};
-            runs[runId(spec)] = run;
+            runs[results::runId(spec)] = run;
         }
     return runs;
 }
 
 /// Quicksort takes `ratio` times as long as radix, alternating ±1 %, on a machine that gets slower.
 auto ratioIs(double ratio) {
-    return [ratio](const ParameterTexts& parameters, int repetition) {
+    return [ratio](const results::ParameterTexts& parameters, int repetition) {
         const double scatter = repetition % 2 ? 1.01 : 0.99;
         return std::stod(parameters.at("particles")) * repetition *
                (parameters.at("sort") == "quicksort" ? ratio * scatter : 1);
@@ -72,7 +72,7 @@ TEST(SuiteComparison, PairsTheCellsThatShowTheSameWorldInTheSameSetting) {
     std::set<std::vector<std::string>> at;
     for (const CellPair& pair : matched.pairs) {
         at.insert(pair.at);
-        ParameterTexts of = pair.of->spec.parameters, with = pair.with->spec.parameters;
+        results::ParameterTexts of = pair.of->spec.parameters, with = pair.with->spec.parameters;
         EXPECT_EQ(of.at("sort"), "quicksort");
         EXPECT_EQ(with.at("sort"), "radix");
         of.erase("sort");
@@ -85,18 +85,18 @@ TEST(SuiteComparison, PairsTheCellsThatShowTheSameWorldInTheSameSetting) {
 
 TEST(SuiteComparison, RunsOfDifferentMachinesAreNoPair) {
     const Suite suite = parseSuite(twoSorts, "s", false);
-    StoredRuns runs = runsOf(suite, ratioIs(0.5));
+    results::StoredRuns runs = runsOf(suite, ratioIs(0.5));
     const PlannedRun* moved = nullptr;
     for (const PlannedRun& cell : suite.cells)
         if (!moved && cell.spec.parameters.at("sort") == "radix") moved = &cell;
-    runs.at(runId(inRepetition(moved->spec, 2))).provenance["cpu"] = "another";
+    runs.at(results::runId(inRepetition(moved->spec, 2))).provenance["cpu"] = "another";
     const ColumnVerdict column = suiteVerdicts(suite, runs).at(0).columns.at(0);
     int touched = 0;
     for (const CellVerdict& cell : column.cells) {
         if (cell.result.pairs == 6) continue;
         ++touched;
         EXPECT_EQ(cell.result.pairs, 5u);
-        EXPECT_EQ(cell.result.verdict, Verdict::unresolved);
+        EXPECT_EQ(cell.result.verdict, measure::Verdict::unresolved);
         EXPECT_THAT(cell.reason, HasSubstr("5 paired runs, 6 are needed; pairs from different machines were left out"));
     }
     EXPECT_EQ(touched, 1);
@@ -106,16 +106,17 @@ TEST(SuiteComparison, RunsOfDifferentMachinesAreNoPair) {
 
 TEST(SuiteComparison, AnInvalidRunIsNoPairAndIsCounted) {
     const Suite suite = parseSuite(twoSorts, "s", false);
-    StoredRuns runs = runsOf(suite, ratioIs(0.5));
+    results::StoredRuns runs = runsOf(suite, ratioIs(0.5));
     for (const int repetition : {2, 5})
-        runs.at(runId(inRepetition(suite.cells.front().spec, repetition))).cells["invalid"] = "particles_median is 9";
+        runs.at(results::runId(inRepetition(suite.cells.front().spec, repetition))).cells["invalid"] =
+            "particles_median is 9";
     const ColumnVerdict column = suiteVerdicts(suite, runs).at(0).columns.at(0);
     int touched = 0;
     for (const CellVerdict& cell : column.cells) {
         if (cell.result.pairs == 6) continue;
         ++touched;
         EXPECT_EQ(cell.result.pairs, 4u);
-        EXPECT_EQ(cell.result.verdict, Verdict::unresolved);
+        EXPECT_EQ(cell.result.verdict, measure::Verdict::unresolved);
         EXPECT_EQ(cell.reason,
                   "4 paired runs, 6 are needed; 2 pairs with an invalid run were left out (particles_median is 9)");
     }
@@ -148,52 +149,53 @@ TEST(SuiteComparison, FindsTheRatioWithWhichTheTimesWereMade) {
         for (const CellVerdict& cell : column.cells) {
             EXPECT_NEAR(cell.result.ratio, 0.8, 1e-4) << column.column;
             EXPECT_EQ(cell.result.pairs, 6u);
-            EXPECT_EQ(cell.result.verdict, Verdict::faster);
+            EXPECT_EQ(cell.result.verdict, measure::Verdict::faster);
             EXPECT_LT(cell.result.low, 0.8);
             EXPECT_GT(cell.result.high, 0.8);
         }
         EXPECT_NEAR(column.overall.result.ratio, 0.8, 1e-4);
         EXPECT_EQ(column.overall.result.pairs, 6u);
-        EXPECT_EQ(column.overall.result.verdict, Verdict::faster);
+        EXPECT_EQ(column.overall.result.verdict, measure::Verdict::faster);
     }
     const auto slower = suiteVerdicts(suite, runsOf(suite, ratioIs(1.25)));
-    EXPECT_EQ(slower[0].columns[0].overall.result.verdict, Verdict::slower);
+    EXPECT_EQ(slower[0].columns[0].overall.result.verdict, measure::Verdict::slower);
     const auto same = suiteVerdicts(suite, runsOf(suite, ratioIs(1)));
-    EXPECT_EQ(same[0].columns[0].overall.result.verdict, Verdict::same);
+    EXPECT_EQ(same[0].columns[0].overall.result.verdict, measure::Verdict::same);
     EXPECT_THAT(conclusions(same[0])[0], HasSubstr("SAME within 2 %"));
 }
 
 TEST(SuiteComparison, AllTogetherIsTheGeometricMeanOverCellsAndItsScatterThatOfRounds) {
     // Ratios 0.5 and 2 in every round: clear and opposite per configuration, no scatter for both together.
     const Suite suite = parseSuite(twoSorts, "s", false);
-    const auto results = suiteVerdicts(suite, runsOf(suite, [](const ParameterTexts& parameters, int repetition) {
-                                           const double ratio = parameters.at("particles") == "100" ? 0.5 : 2;
-                                           return repetition * (parameters.at("sort") == "quicksort" ? ratio : 1);
-                                       }));
-    const PairedRatio& overall = results[0].columns[0].overall.result;
+    const auto results =
+        suiteVerdicts(suite, runsOf(suite, [](const results::ParameterTexts& parameters, int repetition) {
+                          const double ratio = parameters.at("particles") == "100" ? 0.5 : 2;
+                          return repetition * (parameters.at("sort") == "quicksort" ? ratio : 1);
+                      }));
+    const measure::PairedRatio& overall = results[0].columns[0].overall.result;
     EXPECT_NEAR(overall.ratio, 1, 1e-12);
     EXPECT_NEAR(overall.high - overall.low, 0, 1e-12);
-    EXPECT_EQ(overall.verdict, Verdict::same);
+    EXPECT_EQ(overall.verdict, measure::Verdict::same);
 }
 
 TEST(SuiteComparison, ARunThatIsMissingCostsItsPairAndItsRound) {
     const Suite suite = parseSuite(twoSorts, "s", false);
     const auto times = ratioIs(0.8);
-    const auto results = suiteVerdicts(suite, runsOf(suite, [&](const ParameterTexts& parameters, int repetition) {
-                                           const bool missing = repetition == 3 && parameters.at("sort") == "radix" &&
-                                                                parameters.at("particles") == "200" &&
-                                                                parameters.at("puff") == "texture";
-                                           return missing ? std::nan("") : times(parameters, repetition);
-                                       }));
+    const auto results = suiteVerdicts(
+        suite, runsOf(suite, [&](const results::ParameterTexts& parameters, int repetition) {
+            const bool missing = repetition == 3 && parameters.at("sort") == "radix" &&
+                                 parameters.at("particles") == "200" && parameters.at("puff") == "texture";
+            return missing ? std::nan("") : times(parameters, repetition);
+        }));
     const ColumnVerdict& column = results[0].columns[0];
     EXPECT_EQ(column.overall.result.pairs, 5u);
-    EXPECT_EQ(column.overall.result.verdict, Verdict::unresolved);
+    EXPECT_EQ(column.overall.result.verdict, measure::Verdict::unresolved);
     int incomplete = 0;
     for (const CellVerdict& cell : column.cells) {
         if (cell.result.pairs == 6) continue;
         ++incomplete;
         EXPECT_THAT(cell.at, ElementsAre("200", "texture"));
-        EXPECT_EQ(cell.result.verdict, Verdict::unresolved);
+        EXPECT_EQ(cell.result.verdict, measure::Verdict::unresolved);
         EXPECT_EQ(cell.reason, "5 paired runs, 6 are needed");
     }
     EXPECT_EQ(incomplete, 1);
@@ -203,10 +205,10 @@ TEST(SuiteComparison, CellsThatWereNeverMeasuredDoNotHideTheOthers) {
     const Suite suite = parseSuite(twoSorts, "s", false);
     const auto times = ratioIs(0.8);
     const auto results =
-        suiteVerdicts(suite, runsOf(suite, [&](const ParameterTexts& parameters, int repetition) {
+        suiteVerdicts(suite, runsOf(suite, [&](const results::ParameterTexts& parameters, int repetition) {
                           return parameters.at("particles") == "200" ? std::nan("") : times(parameters, repetition);
                       }));
-    EXPECT_EQ(results[0].columns[0].overall.result.verdict, Verdict::faster);
+    EXPECT_EQ(results[0].columns[0].overall.result.verdict, measure::Verdict::faster);
 
     const auto none = suiteVerdicts(suite, {});
     EXPECT_EQ(
@@ -218,7 +220,7 @@ TEST(SuiteComparison, CellsThatWereNeverMeasuredDoNotHideTheOthers) {
 TEST(SuiteComparison, TimesOfZeroAreNotCompared) {
     const Suite suite = parseSuite(twoSorts, "s", false);
     const auto results =
-        suiteVerdicts(suite, runsOf(suite, [](const ParameterTexts& parameters, int) {
+        suiteVerdicts(suite, runsOf(suite, [](const results::ParameterTexts& parameters, int) {
                           return parameters.at("sort") == "quicksort" && parameters.at("particles") == "100" ? 0. : 1.;
                       }));
     for (const CellVerdict& cell : results[0].columns[0].cells)
@@ -229,7 +231,7 @@ TEST(SuiteComparison, RunsInBatchesResolveNothing) {
     Suite suite = parseSuite(twoSorts, "s", false);
     suite.order = Order::batch;
     const auto results = suiteVerdicts(suite, runsOf(suite, ratioIs(0.5)));
-    EXPECT_EQ(results[0].columns[0].overall.result.verdict, Verdict::unresolved);
+    EXPECT_EQ(results[0].columns[0].overall.result.verdict, measure::Verdict::unresolved);
     EXPECT_THAT(conclusions(results[0])[0], HasSubstr("not interleaved"));
 }
 
@@ -292,5 +294,4 @@ TEST(SuiteComparison, MistakesNameFileLineAndWhatIsNear) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -13,13 +13,13 @@
 #include "bench/suite/suite_evaluation.h"
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
-RunSpec baselineOf(RunSpec spec) {
+results::RunSpec baselineOf(results::RunSpec spec) {
     std::erase_if(spec.parameters, [](const auto& parameter) { return !isOfTheWorld(parameter.first); });
-    spec.method = baselineMethod;
-    spec.parameters = canonicalParameters(*findBaseline(), spec.parameters);
+    spec.method = results::baselineMethod;
+    spec.parameters = results::canonicalParameters(*results::findBaseline(), spec.parameters);
     spec.imagesEvery = 0;
     spec.volumes.reset();
     spec.metricPlan.reset();
@@ -51,13 +51,13 @@ class CellGroups {
 }  // namespace
 
 Suite withBaselines(Suite suite) {
-    if (!suite.baseline || !findBaseline()) return suite;
+    if (!suite.baseline || !results::findBaseline()) return suite;
     std::vector<Axis> axes = worldAxes(cellsOf(suite));
     std::erase_if(axes, [](const Axis& axis) { return axis.name == "scene"; });  // shown separately from the label
     std::map<std::string, std::size_t> added;                                    // by world
     std::vector<PlannedRun> baselines;
     for (const PlannedRun& cell : suite.cells) {
-        if (cell.spec.method == baselineMethod || !cell.skip.empty()) continue;
+        if (cell.spec.method == results::baselineMethod || !cell.skip.empty()) continue;
         const auto [entry, isNew] = added.try_emplace(worldKey(cell.spec), baselines.size());
         if (isNew)
             baselines.push_back({baselineOf(cell.spec), labelOf(axes, cell.spec), cell.repetitions});
@@ -66,7 +66,7 @@ Suite withBaselines(Suite suite) {
     }
     std::erase_if(baselines, [&](const PlannedRun& baseline) {
         return std::ranges::any_of(suite.cells, [&](const PlannedRun& cell) {
-            return cell.spec.method == baselineMethod && cell.spec.parameters == baseline.spec.parameters &&
+            return cell.spec.method == results::baselineMethod && cell.spec.parameters == baseline.spec.parameters &&
                    worldKey(cell.spec) == worldKey(baseline.spec);
         });
     });
@@ -138,10 +138,10 @@ std::vector<PlannedRun> planRuns(const Suite& suite, Shard shard) {
     std::set<std::string> mine;
     for (const PlannedRun& cell : withBaselines(partOf(suite, shard)).cells)
         for (int repetition = 1; repetition <= suite.repetitions; ++repetition)
-            mine.insert(runId(inRepetition(cell.spec, repetition)));
+            mine.insert(results::runId(inRepetition(cell.spec, repetition)));
     std::vector<PlannedRun> plan = planRuns(suite);
-    std::erase_if(plan, [&mine](const PlannedRun& run) { return !mine.contains(runId(run.spec)); });
+    std::erase_if(plan, [&mine](const PlannedRun& run) { return !mine.contains(results::runId(run.spec)); });
     return plan;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

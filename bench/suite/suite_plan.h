@@ -12,7 +12,7 @@
 
 #include "bench/suite/suite.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 /// The suite with one configuration of the null method, at its defaults and without pictures, appended to `cells` for
 /// each world in which another method runs. It repeats as often as the world's most repeated configuration. Unchanged
@@ -42,4 +42,4 @@ inline constexpr int maximumShards = 10'000;
 /// The shard's runs, in the order of the whole suite's plan.
 [[nodiscard]] std::vector<PlannedRun> planRuns(const Suite& suite, Shard shard);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

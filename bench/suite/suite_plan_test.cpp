@@ -14,7 +14,7 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 constexpr const char* timed = R"(
@@ -34,7 +34,7 @@ sort = ["none", "radix"]
 class Baselines : public testing::Test {
  protected:
     void SetUp() override {
-        for (const std::string_view id : {std::string_view("billboard"), baselineMethod})
+        for (const std::string_view id : {std::string_view("billboard"), results::baselineMethod})
             if (std::ranges::none_of(methods(), [&](const MethodInfo& info) { return info.id == id; }))
                 GTEST_SKIP() << "no " << id << " here";
     }
@@ -44,7 +44,7 @@ class Baselines : public testing::Test {
         cells.erase(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(suite.cells.size()));
         return cells;
     }
-    static bool isBaseline(const PlannedRun& run) { return run.spec.method == baselineMethod; }
+    static bool isBaseline(const PlannedRun& run) { return run.spec.method == results::baselineMethod; }
 };
 
 TEST_F(Baselines, RunOnceInEveryWorldWhateverTheMethodsSettings) {
@@ -55,7 +55,7 @@ TEST_F(Baselines, RunOnceInEveryWorldWhateverTheMethodsSettings) {
     for (const PlannedRun& cell : suite.cells) worlds.insert(worldKey(cell.spec));
     for (const PlannedRun& cell : added) {
         EXPECT_TRUE(theirs.insert(worldKey(cell.spec)).second) << cell.label;
-        EXPECT_EQ(cell.spec.method, baselineMethod);
+        EXPECT_EQ(cell.spec.method, results::baselineMethod);
         EXPECT_FALSE(cell.spec.metricPlan);
         EXPECT_FALSE(cell.spec.volumes);
         EXPECT_EQ(cell.spec.imagesEvery, 0);
@@ -158,7 +158,7 @@ sort = ["none", "radix"]
 std::vector<std::string> idsOf(const std::vector<PlannedRun>& plan) {
     std::vector<std::string> ids;
     ids.reserve(plan.size());
-    for (const PlannedRun& run : plan) ids.push_back(runId(run.spec));
+    for (const PlannedRun& run : plan) ids.push_back(results::runId(run.spec));
     return ids;
 }
 
@@ -212,7 +212,7 @@ columns = ["frame_ms_median"]
     const std::vector<int> shards = shardOfCells(suite, 6);
     std::map<std::string, int> shardOf;
     for (std::size_t i = 0; i < suite.cells.size(); ++i) {
-        const ParameterTexts& parameters = suite.cells[i].spec.parameters;
+        const results::ParameterTexts& parameters = suite.cells[i].spec.parameters;
         shardOf[parameters.at("particles") + " " + parameters.at("speed")] = shards[i];
     }
     EXPECT_EQ(shardOf["100 5"], shardOf["400 5"]);
@@ -239,5 +239,4 @@ TEST(Shard, IsReadFromItsText) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -11,7 +11,7 @@
 #include "bench/suite/suite_cells.h"
 #include "methods/contract/stage_clock.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 using Row = std::vector<std::string>;
@@ -27,14 +27,15 @@ Row timesHeader(bool withOwn) {
     return names;
 }
 
-Row timesOf(const std::vector<const StoredRun*>& done, bool withOwn) {
+Row timesOf(const std::vector<const results::StoredRun*>& done, bool withOwn) {
     const auto fps = numbersIn(done, "fps_avg");
     Row row;
-    for (const double value : {median(fps), quantile(fps, 0), quantile(fps, 1)}) row.push_back(oneDecimal(value));
-    row.push_back(fourDigits(median(numbersIn(done, "frame_ms_median"))));
-    if (withOwn) row.push_back(fourDigits(median(numbersIn(done, "method_ms_median"))));
+    for (const double value : {measure::median(fps), measure::quantile(fps, 0), measure::quantile(fps, 1)})
+        row.push_back(oneDecimal(value));
+    row.push_back(fourDigits(measure::median(numbersIn(done, "frame_ms_median"))));
+    if (withOwn) row.push_back(fourDigits(measure::median(numbersIn(done, "method_ms_median"))));
     for (const std::string_view stage : stageNames)
-        row.push_back(fourDigits(median(numbersIn(done, fmt::format("{}_ms_median", stage)))));
+        row.push_back(fourDigits(measure::median(numbersIn(done, fmt::format("{}_ms_median", stage)))));
     return row;
 }
 
@@ -43,9 +44,9 @@ std::string threeDigitsIfSmall(double value) {
 }
 
 /// Metrics of the first repetition, the only one that has them.
-Row metricsOf(const std::vector<const StoredRun*>& done) {
+Row metricsOf(const std::vector<const results::StoredRun*>& done) {
     Row row;
-    for (const Metric& metric : metrics()) {
+    for (const measure::Metric& metric : measure::metrics()) {
         const auto values = numbersIn(done, metric.column);
         const double value = values.empty() ? std::numeric_limits<double>::quiet_NaN() : values.front();
         row.push_back(threeDigitsIfSmall(value));
@@ -54,7 +55,7 @@ Row metricsOf(const std::vector<const StoredRun*>& done) {
 }
 
 /// ` (2 of 6 invalid)`; empty if all are valid.
-std::string invalidMark(const std::vector<const StoredRun*>& done) {
+std::string invalidMark(const std::vector<const results::StoredRun*>& done) {
     const std::size_t count = done.size() - validOf(done).size();
     return count == 0 ? "" : fmt::format(" ({} of {} invalid)", count, done.size());
 }
@@ -79,13 +80,14 @@ std::vector<std::pair<std::string, std::vector<const PlannedRun*>>> groupByWorld
 
 /// `numbersOf` returns the table cells under `numberHeader` for the runs of a configuration.
 template <typename NumbersOf>
-TextRows tabulateRuns(const Suite& suite, const StoredRuns& runs, const Row& numberHeader, const NumbersOf& numbersOf) {
+TextRows tabulateRuns(const Suite& suite, const results::StoredRuns& runs, const Row& numberHeader,
+                      const NumbersOf& numbersOf) {
     TextRows table;
     const auto cells = cellsOf(suite);
     if (cells.empty()) return table;
     const auto world = worldAxes(cells);
     const auto settings = methodAxes(cells);
-    const auto nameOf = [&](const PlannedRun& cell, const std::vector<const StoredRun*>& done) {
+    const auto nameOf = [&](const PlannedRun& cell, const std::vector<const results::StoredRun*>& done) {
         std::string name = cell.spec.method;
         if (const std::string setting = labelOf(settings, cell.spec); !setting.empty()) name += " " + setting;
         if (done.size() < static_cast<std::size_t>(suite.repetitions))
@@ -125,7 +127,7 @@ std::string fourDigits(double value) {
     return fmt::format("{:.{}f}", value, size < 9.9995 ? 3 : size < 99.995 ? 2 : size < 999.95 ? 1 : 0);
 }
 
-TextRows tabulate(const Suite& suite, const StoredRuns& runs) {
+TextRows tabulate(const Suite& suite, const results::StoredRuns& runs) {
     return tabulateRuns(suite, runs, timesHeader(suite.baseline),
                         [&](const auto& done) { return timesOf(done, suite.baseline); });
 }
@@ -140,7 +142,7 @@ TextRows tabulate(const std::vector<MeasuredCell>& cells) {
     return table;
 }
 
-bool isTimed(const Suite& suite, const StoredRuns& runs) {
+bool isTimed(const Suite& suite, const results::StoredRuns& runs) {
     bool anyDone = false;
     for (const PlannedRun& cell : suite.cells) {
         const auto done = doneRuns(cell, suite.repetitions, runs);
@@ -150,27 +152,28 @@ bool isTimed(const Suite& suite, const StoredRuns& runs) {
     return !anyDone;
 }
 
-TextRows tabulateCounts(const Suite& suite, const StoredRuns& runs) {
+TextRows tabulateCounts(const Suite& suite, const results::StoredRuns& runs) {
     Row columns{"particles_median", "primitives_median", "cpu_bytes", "gpu_bytes"};
     if (const std::string& quantity = suite.chart.column;
         !quantity.empty() && std::ranges::find(columns, quantity) == columns.end())
         columns.insert(columns.begin(), quantity);
-    return tabulateRuns(suite, runs, columns, [&](const std::vector<const StoredRun*>& done) {
+    return tabulateRuns(suite, runs, columns, [&](const std::vector<const results::StoredRun*>& done) {
         Row row;
-        for (const std::string& column : columns) row.push_back(threeDigitsIfSmall(median(numbersIn(done, column))));
+        for (const std::string& column : columns)
+            row.push_back(threeDigitsIfSmall(measure::median(numbersIn(done, column))));
         return row;
     });
 }
 
-TextRows tabulateMetrics(const Suite& suite, const StoredRuns& runs) {
+TextRows tabulateMetrics(const Suite& suite, const results::StoredRuns& runs) {
     const bool evaluated = std::ranges::any_of(suite.cells, [&](const PlannedRun& cell) {
-        const StoredRun* first = doneRun(cell, 1, runs);
+        const results::StoredRun* first = doneRun(cell, 1, runs);
         return first && numberIn(*first, "rmse_linear");
     });
     if (!evaluated) return {};
     Row names;
-    for (const Metric& metric : metrics()) names.emplace_back(metric.column);
+    for (const measure::Metric& metric : measure::metrics()) names.emplace_back(metric.column);
     return tabulateRuns(suite, runs, names, metricsOf);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -10,7 +10,7 @@
 #include "bench/suite/suite.h"
 #include "bench/suite/suite_cells.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 struct TextRows {
     std::vector<std::string> header;
@@ -22,22 +22,22 @@ struct TextRows {
 /// world's label, `particles=500 speed=20`, precedes the rows of the methods, which are labelled with their varying
 /// settings: `octree_search layout=morton`. Incomplete rows are marked, `billboard (4 of 6 runs)`, and so are rows with
 /// invalid runs, `billboard (2 of 6 invalid)`.
-[[nodiscard]] TextRows tabulate(const Suite& suite, const StoredRuns& runs);
+[[nodiscard]] TextRows tabulate(const Suite& suite, const results::StoredRuns& runs);
 
 /// True if a run that is done was timed, or if no run is done.
-[[nodiscard]] bool isTimed(const Suite& suite, const StoredRuns& runs);
+[[nodiscard]] bool isTimed(const Suite& suite, const results::StoredRuns& runs);
 
 /// The same rows for runs without times: the chart's quantity, particles, primitives and bytes, as medians over the
 /// runs.
-[[nodiscard]] TextRows tabulateCounts(const Suite& suite, const StoredRuns& runs);
+[[nodiscard]] TextRows tabulateCounts(const Suite& suite, const results::StoredRuns& runs);
 
 /// The same rows with metrics (reports/METRICS.md); no rows if no run has metrics.
-[[nodiscard]] TextRows tabulateMetrics(const Suite& suite, const StoredRuns& runs);
+[[nodiscard]] TextRows tabulateMetrics(const Suite& suite, const results::StoredRuns& runs);
 
 /// The runs of a configuration that does not belong to a suite.
 struct MeasuredCell {
     std::string label;
-    std::vector<const StoredRun*> done;
+    std::vector<const results::StoredRun*> done;
 };
 /// FPS, frame time and stages of such configurations, each with its number of runs.
 [[nodiscard]] TextRows tabulate(const std::vector<MeasuredCell>& cells);
@@ -45,4 +45,4 @@ struct MeasuredCell {
 /// Four significant digits, at most three decimals: `0.047`, `12.35`, `123.5`; empty for NaN.
 [[nodiscard]] std::string fourDigits(double value);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

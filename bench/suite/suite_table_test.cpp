@@ -9,13 +9,13 @@
 #include "bench/suite/suite_evaluation.h"
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 using testing::ElementsAre;
 using Row = std::vector<std::string>;
 
-PlannedRun cellOf(const std::string& method, const std::string& particles, const ParameterTexts& own) {
+PlannedRun cellOf(const std::string& method, const std::string& particles, const results::ParameterTexts& own) {
     PlannedRun cell;
     cell.spec.method = method;
     cell.spec.parameters = own;
@@ -24,12 +24,12 @@ PlannedRun cellOf(const std::string& method, const std::string& particles, const
     return cell;
 }
 
-void store(StoredRuns& runs, const PlannedRun& cell, int repetition, const std::string& fps) {
-    RunSpec spec = cell.spec;
+void store(results::StoredRuns& runs, const PlannedRun& cell, int repetition, const std::string& fps) {
+    results::RunSpec spec = cell.spec;
     spec.repetition = repetition;
-    StoredRun run;
+    results::StoredRun run;
     run.cells = {{"fps_avg", fps}, {"frame_ms_median", "5.5"}, {"draw_ms_median", "12.3456"}};
-    runs[runId(spec)] = run;
+    runs[results::runId(spec)] = run;
 }
 
 Row firstCells(const Row& row, std::size_t count) {
@@ -46,7 +46,7 @@ TEST(SuiteTable, OneMethodHasAColumnForWhatVaries) {
     Suite suite;
     suite.repetitions = 3;
     for (const char* count : {"100", "200"}) suite.cells.push_back(cellOf("haze", count, {}));
-    StoredRuns runs;
+    results::StoredRuns runs;
     for (const int repetition : {1, 2, 3})
         store(runs, suite.cells[0], repetition, std::to_string(10 * repetition * repetition));
     const TextRows table = tabulate(suite, runs);
@@ -66,7 +66,7 @@ TEST(SuiteTable, MethodsStandTogetherBelowTheWorldTheyAreShown) {
     for (const char* count : {"100", "200"})
         for (const char* layout : {"plain", "packed"})
             suite.cells.push_back(cellOf("mist", count, {{"sort", "quicksort"}, {"layout", layout}}));
-    StoredRuns runs;
+    results::StoredRuns runs;
     for (const PlannedRun& cell : suite.cells) store(runs, cell, 1, "10");
     store(runs, suite.cells[0], 2, "10");
     const TextRows table = tabulate(suite, runs);
@@ -87,9 +87,9 @@ TEST(SuiteTable, MethodsStandTogetherBelowTheWorldTheyAreShown) {
 TEST(SuiteTable, ARunThatFailedIsNotCounted) {
     Suite suite;
     suite.cells.push_back(cellOf("haze", "100", {}));
-    StoredRuns runs;
+    results::StoredRuns runs;
     store(runs, suite.cells[0], 1, "10");
-    runs.begin()->second.status = RunStatus::failed;
+    runs.begin()->second.status = results::RunStatus::failed;
     EXPECT_EQ(tabulate(suite, runs).rows.at(0).at(0), "haze (0 of 1 runs)");
 }
 
@@ -97,28 +97,28 @@ TEST(SuiteTable, InvalidRunsAreMarkedWhereTheirNumbersStand) {
     Suite suite;
     suite.repetitions = 2;
     suite.cells.push_back(cellOf("haze", "100", {}));
-    StoredRuns runs;
+    results::StoredRuns runs;
     for (const int repetition : {1, 2}) store(runs, suite.cells[0], repetition, "10");
     runs.begin()->second.cells["invalid"] = "particles_median is 68, requested: 100";
     EXPECT_EQ(tabulate(suite, runs).rows.at(0).at(0), "haze (1 of 2 invalid)");
-    const std::vector<const StoredRun*> done = doneRuns(suite.cells[0], 2, runs);
+    const std::vector<const results::StoredRun*> done = doneRuns(suite.cells[0], 2, runs);
     EXPECT_EQ(tabulate({MeasuredCell{"haze", done}}).rows.at(0).at(0), "haze (1 of 2 invalid)");
     EXPECT_EQ(
-        saysInvalid(done),
+        results::saysInvalid(done),
         "1 of 2 runs is invalid and left out of claims, fits and verdicts: particles_median is 68, requested: 100");
-    EXPECT_EQ(saysInvalid({done.back()}), "");
+    EXPECT_EQ(results::saysInvalid({done.back()}), "");
 }
 
 TEST(SuiteFit, InvalidRunsAreNoPointsAndAreCounted) {
     Suite suite;
     suite.repetitions = 2;
     suite.fits = {{{"frame_ms_median"}, "particles", ""}};
-    StoredRuns runs;
+    results::StoredRuns runs;
     for (const int particles : {100, 200, 400, 800}) {
         suite.cells.push_back(cellOf("haze", std::to_string(particles), {}));
         for (const int repetition : {1, 2}) {
             store(runs, suite.cells.back(), repetition, "10");
-            StoredRun& run = runs[runId(inRepetition(suite.cells.back().spec, repetition))];
+            results::StoredRun& run = runs[results::runId(inRepetition(suite.cells.back().spec, repetition))];
             run.cells["frame_ms_median"] = std::to_string(5 + 0.01 * particles);
             if (repetition == 2) run.cells["frame_ms_median"] = "500";  // with another load than requested
             if (repetition == 2) run.cells["invalid"] = "particles_median is 483, requested: 100";
@@ -136,11 +136,11 @@ TEST(SuiteTable, RunsThatAreNotTimedHaveTheirCounts) {
     suite.cells.push_back(cellOf("haze", "100", {}));
     suite.cells.push_back(cellOf("haze", "200", {}));
     suite.chart.column = "mass_kept";
-    StoredRuns runs;
+    results::StoredRuns runs;
     EXPECT_TRUE(isTimed(suite, runs)) << "nothing is known of them yet";
-    StoredRun run;
+    results::StoredRun run;
     run.cells = {{"fps_avg", ""}, {"mass_kept", "0.01234"}, {"particles_median", "98.5"}, {"cpu_bytes", "123456789"}};
-    runs[runId(suite.cells[0].spec)] = run;
+    runs[results::runId(suite.cells[0].spec)] = run;
     EXPECT_FALSE(isTimed(suite, runs));
     const TextRows table = tabulateCounts(suite, runs);
     EXPECT_THAT(table.header, ElementsAre("method", "particles", "mass_kept", "particles_median", "primitives_median",
@@ -166,14 +166,14 @@ TEST(SuiteFit, MakesOneCurveOfAllRunsThatAreEqualButForTheLoad) {
     Suite suite;
     suite.repetitions = 2;
     suite.fits = {{{"frame_ms_median", "fps_avg"}, "particles", ""}};
-    StoredRuns runs;
+    results::StoredRuns runs;
     for (const char* method : {"haze", "mist"})
         for (const int particles : {100, 200, 400, 800})
             for (const int repetition : {1, 2}) {
                 PlannedRun cell = cellOf(method, std::to_string(particles), {});
                 cell.spec.repetition = repetition;
                 const double ms = method == std::string("haze") ? 5 + 0.01 * particles : 3;
-                StoredRun& run = runs[runId(cell.spec)];
+                results::StoredRun& run = runs[results::runId(cell.spec)];
                 run.cells = {{"frame_ms_median", std::to_string(ms)}, {"fps_avg", std::to_string(1000 / ms)}};
                 if (repetition == 1) suite.cells.push_back(cell);
             }
@@ -186,7 +186,7 @@ TEST(SuiteFit, MakesOneCurveOfAllRunsThatAreEqualButForTheLoad) {
         EXPECT_EQ(cellAt(table, row, "loads"), "4");
         EXPECT_EQ(cellAt(table, row, "runs"), "8");
         EXPECT_EQ(cellAt(table, row, "note"), "");
-        const CostFit& fit = results[0].curves[row].fit;
+        const measure::CostFit& fit = results[0].curves[row].fit;
         EXPECT_NEAR(fit.fixedMs.value, 5, 1e-3);
         EXPECT_NEAR(fit.exponent.value, 1, 1e-4);
     }
@@ -197,4 +197,4 @@ TEST(SuiteFit, MakesOneCurveOfAllRunsThatAreEqualButForTheLoad) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

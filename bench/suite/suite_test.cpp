@@ -12,7 +12,7 @@
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 using testing::AllOf;
@@ -53,7 +53,7 @@ std::string messageOf(const std::string& text) {
 std::vector<std::string> ids(const std::vector<PlannedRun>& plan) {
     std::vector<std::string> list;
     list.reserve(plan.size());
-    for (const PlannedRun& run : plan) list.push_back(runId(run.spec));
+    for (const PlannedRun& run : plan) list.push_back(results::runId(run.spec));
     return list;
 }
 
@@ -101,10 +101,10 @@ TEST(Suite, InterleavedRoundsHoldEveryCellOnceInSeededOrder) {
     for (int round = 0; round < suite.repetitions; ++round) {
         std::vector<std::string> keys;
         for (std::size_t i = 0; i < cells; ++i) {
-            RunSpec spec = plan[static_cast<std::size_t>(round) * cells + i].spec;
+            results::RunSpec spec = plan[static_cast<std::size_t>(round) * cells + i].spec;
             EXPECT_EQ(spec.repetition, round + 1);
             spec.repetition = 1;
-            keys.push_back(runId(spec));
+            keys.push_back(results::runId(spec));
         }
         EXPECT_EQ(std::set<std::string>(keys.begin(), keys.end()).size(), cells);
         rounds.push_back(keys);
@@ -139,7 +139,7 @@ entry = ["first", "second"]
     ASSERT_EQ(plan.size(), 60u);
     std::set<std::string> worlds, earlier;
     for (std::size_t i = 0; i < plan.size(); i += 2) {
-        const ParameterTexts &a = plan[i].spec.parameters, &b = plan[i + 1].spec.parameters;
+        const results::ParameterTexts &a = plan[i].spec.parameters, &b = plan[i + 1].spec.parameters;
         EXPECT_EQ(a.at("speed"), b.at("speed")) << i;
         EXPECT_NE(a.at("entry"), b.at("entry")) << i;
         if (i < 10) worlds.insert(a.at("speed"));
@@ -243,7 +243,8 @@ TEST(Suite, ItsRunsAreCountedBeforeTheyAreMade) {
     EXPECT_THAT(messageOf("methods = [\"null_method\"]\nrepetitions = 1001\n"), HasSubstr("1..1000"));
     const MethodInfo& method = findMethod("null_method");
     const std::vector<std::string> thousand(1000, "1");
-    EXPECT_THROW((void)expandParameters(RunSpec(), method, {{"particles", thousand}, {"speed", thousand}}), InputError);
+    EXPECT_THROW((void)expandParameters(results::RunSpec(), method, {{"particles", thousand}, {"speed", thousand}}),
+                 InputError);
 }
 
 TEST(Suite, EverySuiteOfTheProjectCanBePlanned) {
@@ -255,7 +256,8 @@ TEST(Suite, EverySuiteOfTheProjectCanBePlanned) {
             EXPECT_FALSE(planRuns(suite).empty()) << file.id;
             EXPECT_FALSE(suite.title.empty()) << file.id;
             if (suite.comparisons.empty()) continue;
-            EXPECT_GE(suite.repetitions, static_cast<int>(minimumPairs)) << file.id << ": too few for a verdict";
+            EXPECT_GE(suite.repetitions, static_cast<int>(measure::minimumPairs))
+                << file.id << ": too few for a verdict";
             EXPECT_EQ(suite.order, Order::interleaved) << file.id;
         }
 }
@@ -265,7 +267,8 @@ TEST(Suite, WithoutTimesRefusesWhatIsAboutThem) {
     const Suite suite = parseSuite(text + chart, "s.toml", false);
     EXPECT_FALSE(suite.cells.front().spec.timed);
     EXPECT_FALSE(suite.baseline);
-    EXPECT_NE(runId(suite.cells.front().spec), runId(parseSuite(chart, "s.toml", false).cells.front().spec));
+    EXPECT_NE(results::runId(suite.cells.front().spec),
+              results::runId(parseSuite(chart, "s.toml", false).cells.front().spec));
     EXPECT_THAT(messageOf(text), AllOf(HasSubstr("s.toml:2"), HasSubstr("'fps_avg'")));
     EXPECT_THAT(messageOf(text + "chart = \"frame_ms_p95\"\n"), HasSubstr("'frame_ms_p95'"));
     for (const char* more : {"repetitions = 2", "cooldown_s = 1", "baseline = true",
@@ -320,11 +323,11 @@ volumes = "0:4:2"
 )";
     const Suite whole = parseSuite(text, "s.toml", false);
     ASSERT_TRUE(whole.cells.at(0).spec.volumes);
-    const VolumeSettings& volumes = *whole.cells.at(0).spec.volumes;
+    const exports::VolumeSettings& volumes = *whole.cells.at(0).spec.volumes;
     EXPECT_EQ(volumes.frames.text(), "0:11:10");
-    EXPECT_EQ(formatsText(volumes.formats), "vti,vtp");
+    EXPECT_EQ(exports::formatsText(volumes.formats), "vti,vtp");
     EXPECT_EQ(volumes.resolution, 64);
-    EXPECT_EQ(regionText(volumes.region.value()), "0,0,0,1,2,3");
+    EXPECT_EQ(exports::regionText(volumes.region.value()), "0,0,0,1,2,3");
     EXPECT_EQ(volumes.option("vdb_precision"), "float");
     const Suite quick = parseSuite(text, "s.toml", true);
     EXPECT_EQ(quick.cells.at(0).spec.volumes.value().frames.last, 2);
@@ -367,8 +370,8 @@ soft = true
         EXPECT_EQ(run.spec.repetition, 1);
         EXPECT_EQ(run.spec.metricPlan->moments->text(), "0:33:8");
         EXPECT_EQ(run.spec.metricPlan->referenceText(), "soft=on");
-        const RunSpec again = specFromJson(specToJson(run.spec));
-        EXPECT_EQ(runId(again), runId(run.spec));
+        const results::RunSpec again = results::specFromJson(results::specToJson(run.spec));
+        EXPECT_EQ(results::runId(again), results::runId(run.spec));
     }
     EXPECT_EQ(evaluated, 1);
 }
@@ -389,4 +392,4 @@ TEST(Suite, SaysWhereMetricsAreAskedForWrongly) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

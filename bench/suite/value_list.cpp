@@ -11,7 +11,7 @@
 #include "methods/kit/files/csv.h"
 #include "methods/kit/files/limits.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 constexpr double maximumValues = 10'000;
@@ -88,4 +88,4 @@ std::vector<std::string> expandValues(std::string_view what, std::string_view te
     return values;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

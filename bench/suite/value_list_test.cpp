@@ -6,7 +6,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 using testing::ElementsAre;
 
@@ -51,4 +51,4 @@ TEST(ValueList, StopsAtTheLimitOfPlannedRuns) {
     }
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -6,7 +6,7 @@
 
 #include "bench/measure/statistics.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 constexpr double limitMs = 1000 / pacedFramesPerSecond;
@@ -35,7 +35,7 @@ PacedFrame DrawPace::medianOfLast(std::size_t count) const {
         whole.push_back(frame.wholeMs);
         draw.push_back(frame.drawMs);
     }
-    return {median(whole), median(draw)};
+    return {measure::median(whole), measure::median(draw)};
 }
 
 double DrawPace::predictedMs(const PacedFrame& frame, std::size_t step) const {
@@ -56,9 +56,9 @@ void DrawPace::go(std::size_t step) {
     frames_.clear();
 }
 
-ImageSize shareOf(const ImageSize& size, double share) {
+results::ImageSize shareOf(const results::ImageSize& size, double share) {
     const auto part = [share](int pixels) { return std::max(1, static_cast<int>(std::lround(share * pixels))); };
     return {part(size.width), part(size.height)};
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -16,7 +16,7 @@
 
 #include "bench/results/run_spec.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 inline constexpr double pacedFramesPerSecond = 15;
 
@@ -47,6 +47,6 @@ class DrawPace {
 };
 
 /// The share of a size, at least a pixel each way.
-[[nodiscard]] ImageSize shareOf(const ImageSize& size, double share);
+[[nodiscard]] results::ImageSize shareOf(const results::ImageSize& size, double share);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 constexpr double limitMs = 1000 / pacedFramesPerSecond;
@@ -116,9 +116,9 @@ TEST(DrawPace, IgnoresTimesThatAreNone) {
 }
 
 TEST(DrawPace, SharesOfASizeHaveAPixelAtLeast) {
-    EXPECT_EQ(shareOf({800, 600}, 0.6), (ImageSize{480, 360}));
-    EXPECT_EQ(shareOf({2, 1}, 0.2), (ImageSize{1, 1}));
+    EXPECT_EQ(shareOf({800, 600}, 0.6), (results::ImageSize{480, 360}));
+    EXPECT_EQ(shareOf({2, 1}, 0.2), (results::ImageSize{1, 1}));
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -13,7 +13,7 @@
 #include "methods/kit/files/csv.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 using ::testing::HasSubstr;
@@ -39,7 +39,7 @@ TEST(ExactHalf, GivesTheNumbersAndThePictureOfAJudgedRun) {
     state.drive = "slalom";
     state.seed = 3;
     state.frame = 4;
-    MetricValues shown;
+    measure::MetricValues shown;
     pictures::Image reference;
     {
         gpu::Device device;
@@ -50,10 +50,10 @@ TEST(ExactHalf, GivesTheNumbersAndThePictureOfAJudgedRun) {
         shown = session.exact().evaluated().metrics.values;
         reference = session.image(Half::b);
     }
-    RunSpec spec = runOf(state, Half::a);
+    results::RunSpec spec = runOf(state, Half::a);
     spec.imagesEvery = 0;
-    spec.metricPlan.emplace().moments = FrameRange{0, 4, 1};
-    (void)measureRun(spec, folder.path(), {}, [](std::string_view, std::int64_t, std::int64_t) {});
+    spec.metricPlan.emplace().moments = exports::FrameRange{0, 4, 1};
+    (void)run::measureRun(spec, folder.path(), {}, [](std::string_view, std::int64_t, std::int64_t) {});
     const auto table = files::CsvTable::parseFile(folder.path() / "metrics.csv");
     const auto row = table.rows() - 1;
     ASSERT_EQ(table.cell(row, "frame"), "4");
@@ -192,4 +192,4 @@ TEST_F(ExactInViewer, GivesNoNumbersToAMethodWithASimulationOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -5,17 +5,17 @@
 
 #include "bench/world/cameras.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 /// The pose of a camera as a key.
-[[nodiscard]] CameraKey keyOf(const scene::Camera& camera, double seconds);
+[[nodiscard]] world::CameraKey keyOf(const scene::Camera& camera, double seconds);
 
 /// Turns the eye about the target: by `turn` about the vertical, counter-clockwise seen from above, and by `rise`
 /// upwards, but never to the vertical.
-[[nodiscard]] CameraKey turned(const CameraKey& key, double turn, double rise);
+[[nodiscard]] world::CameraKey turned(const world::CameraKey& key, double turn, double rise);
 /// Moves the eye to `factor` times its distance from the target, at least 0.2 m.
-[[nodiscard]] CameraKey dollied(const CameraKey& key, double factor);
+[[nodiscard]] world::CameraKey dollied(const world::CameraKey& key, double factor);
 /// Moves eye and target by `right` and `up` in the plane of the picture.
-[[nodiscard]] CameraKey shifted(const CameraKey& key, double right, double up);
+[[nodiscard]] world::CameraKey shifted(const world::CameraKey& key, double right, double up);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

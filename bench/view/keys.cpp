@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 constexpr std::array bindings{
@@ -72,4 +72,4 @@ std::optional<Action> actionOf(Key key, bool control) {
     return found == bindings.end() ? std::nullopt : std::optional(found->action);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

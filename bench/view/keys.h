@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 /// Keys that the window or a text field reads, independent of the window system's numbers.
 enum class Key {
@@ -113,4 +113,4 @@ struct PadState {
     std::array<bool, padButtonCount> buttons{};
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -17,16 +17,16 @@
 #include "bench/view/split_view.h"
 #include "methods/kit/draw/read_back.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
-Measured flipOf(const ViewSession& session) {
+measure::Measured flipOf(const ViewSession& session) {
     if (session.isExact(Half::b) && session.isEvaluated() && session.exact().whyNotEvaluated().empty()) {
-        const EvaluatedMoment& evaluated = session.exact().evaluated();
+        const reference::EvaluatedMoment& evaluated = session.exact().evaluated();
         return {evaluated.metrics.values.of("flip"), evaluated.difference};
     }
-    return flip(preparePicture(session.image(Half::b), "the picture of B"),
-                preparePicture(session.image(Half::a), "the picture of A"));
+    return measure::flip(measure::preparePicture(session.image(Half::b), "the picture of B"),
+                         measure::preparePicture(session.image(Half::a), "the picture of A"));
 }
 
 bool isFinite(const glm::vec4& value) {
@@ -41,7 +41,7 @@ constexpr float seenThrough = 0.45f;
 const glm::vec3 quadColour(0.87f, 0.76f, 0.05f), voxelColour(0.09f, 0.46f, 0.81f);
 
 /// Adds 1 to every pixel of the line except the last one, so that an outline of several lines counts corners once.
-void addLine(Plane& plane, glm::dvec2 from, glm::dvec2 to) {
+void addLine(measure::Plane& plane, glm::dvec2 from, glm::dvec2 to) {
     const glm::dvec2 way = to - from;
     // Clipped to the picture first (Liang and Barsky), so that the cost of a line depends only on its visible part.
     double begin = 0, end = 1;
@@ -65,7 +65,8 @@ void addLine(Plane& plane, glm::dvec2 from, glm::dvec2 to) {
 }
 
 /// Draws a line between points in the camera's frame, clipped at the near plane.
-void addEdge(Plane& plane, const CameraRays& rays, double nearMetres, glm::dvec3 from, glm::dvec3 to) {
+void addEdge(measure::Plane& plane, const reference::CameraRays& rays, double nearMetres, glm::dvec3 from,
+             glm::dvec3 to) {
     if (from.z < to.z) std::swap(from, to);
     if (!(from.z > nearMetres)) return;
     if (to.z < nearMetres) to = glm::mix(from, to, (from.z - nearMetres) / (from.z - to.z));
@@ -75,13 +76,14 @@ void addEdge(Plane& plane, const CameraRays& rays, double nearMetres, glm::dvec3
     addLine(plane, pixel(from), pixel(to));
 }
 
-void addQuad(Plane& plane, const glm::dvec2& centre, double half) {
+void addQuad(measure::Plane& plane, const glm::dvec2& centre, double half) {
     const glm::dvec2 right(half, 0), up(0, half);
     const std::array corners{centre - right - up, centre + right - up, centre + right + up, centre - right + up};
     for (std::size_t i = 0; i < corners.size(); ++i) addLine(plane, corners[i], corners[(i + 1) % corners.size()]);
 }
 
-void addVoxel(Plane& plane, const CameraRays& rays, double nearMetres, const glm::dvec3& minimum, double edge) {
+void addVoxel(measure::Plane& plane, const reference::CameraRays& rays, double nearMetres, const glm::dvec3& minimum,
+              double edge) {
     // Corner i has bit 0 of i along x, bit 1 along y, bit 2 along z.
     std::array<glm::dvec3, 8> corners;
     for (std::size_t i = 0; i < corners.size(); ++i)
@@ -105,7 +107,7 @@ LayerFaults faultsOf(const pictures::Image& layer) {
             ++faults.notFinite;
         else if (pixel.r < 0 || pixel.g < 0 || pixel.b < 0)
             ++faults.negative;
-        else if (pixel.a < -alphaTolerance || pixel.a > 1 + alphaTolerance)
+        else if (pixel.a < -measure::alphaTolerance || pixel.a > 1 + measure::alphaTolerance)
             ++faults.alpha;
         else
             continue;
@@ -116,7 +118,7 @@ LayerFaults faultsOf(const pictures::Image& layer) {
 }
 
 void MomentMaps::fit(gpu::Texture& texture, const char* label, const ViewSession& session) {
-    const ImageSize size = session.state().size;
+    const results::ImageSize size = session.state().size;
     if (texture.width() != size.width || texture.height() != size.height)
         texture = gpu::Texture::make2D(device_, label, gpu::Format::rgba8, size.width, size.height);
 }
@@ -127,12 +129,12 @@ const gpu::Texture& MomentMaps::flip(const ViewSession& session) {
 }
 
 void MomentMaps::makeFlip(const ViewSession& session) {
-    const std::int64_t start = steadyNow();
-    const Measured measured = flipOf(session);
+    const std::int64_t start = measure::steadyNow();
+    const measure::Measured measured = flipOf(session);
     fit(flip_, "FLIP", session);
-    upload(heatMap(measured.map), flip_);
+    upload(measure::heatMap(measured.map), flip_);
     flipMean_ = measured.value;
-    flipSeconds_ = static_cast<double>(steadyNow() - start) / 1e9;
+    flipSeconds_ = static_cast<double>(measure::steadyNow() - start) / 1e9;
     flipMoment_ = session.drawnMoment();
 }
 
@@ -142,21 +144,21 @@ const gpu::Texture& MomentMaps::overdraw(ViewSession& session, Half half) {
 }
 
 void MomentMaps::makeOverdraw(ViewSession& session) {
-    const ImageSize size = session.state().size;
-    std::array<Plane, 2> maps;
+    const results::ImageSize size = session.state().size;
+    std::array<measure::Plane, 2> maps;
     float maximum = 1;
     for (const Half half : {Half::a, Half::b}) {
-        Plane& map = maps.at(half == Half::a ? 0 : 1);
-        map = Plane(size.width, size.height);
+        measure::Plane& map = maps.at(half == Half::a ? 0 : 1);
+        map = measure::Plane(size.width, size.height);
         if (!session.hasHost(half)) continue;
-        CollectedVolume volume;
+        exports::CollectedVolume volume;
         session.volume(half, volume);
-        map = overdrawMap(primitivesOnScreen(volume, session.view()), size.width, size.height);
+        map = measure::overdrawMap(reference::primitivesOnScreen(volume, session.view()), size.width, size.height);
         maximum = std::max(maximum, std::ranges::max(map.values));
     }
     for (std::size_t i = 0; i < maps.size(); ++i) {
         fit(overdraw_[i], "overdraw", session);
-        upload(heatMap(maps[i], 0, maximum), overdraw_[i]);
+        upload(measure::heatMap(maps[i], 0, maximum), overdraw_[i]);
     }
     overdrawLimit_ = static_cast<double>(maximum);
     overdrawMoment_ = session.drawnMoment();
@@ -166,7 +168,7 @@ const gpu::Texture& MomentMaps::outlines(ViewSession& session, Half half) {
     const std::size_t index = half == Half::a ? 0 : 1;
     gpu::Texture& texture = outlines_.at(index);
     if (outlinesMoment_.at(index) == session.drawnMoment()) return texture;
-    CollectedVolume volume;
+    exports::CollectedVolume volume;
     if (session.hasHost(half)) session.volume(half, volume);
     fit(texture, "outlines", session);
     upload(withOutlines(session.image(half), outlinesOf(volume, session.view())), texture);
@@ -183,18 +185,18 @@ const LayerFaults& MomentMaps::faults(const ViewSession& session, Half half) {
     return faults_.at(index);
 }
 
-Outlines outlinesOf(const CollectedVolume& volume, const scene::View& view) {
-    const CameraRays rays(view);
+Outlines outlinesOf(const exports::CollectedVolume& volume, const scene::View& view) {
+    const reference::CameraRays rays(view);
     const double pixelsPerSlope = rays.pixelX(1) - rays.pixelX(0);
     const double nearMetres = view.camera.nearMetres;
-    Outlines outlines{Plane(view.width, view.height), Plane(view.width, view.height)};
-    for (const CollectedPuff& puff : volume.puffs()) {
+    Outlines outlines{measure::Plane(view.width, view.height), measure::Plane(view.width, view.height)};
+    for (const exports::CollectedPuff& puff : volume.puffs()) {
         const glm::dvec3 place = rays.fromWorld(glm::dvec3(puff.centre));
         if (place.z <= nearMetres) continue;
         addQuad(outlines.quads, {rays.pixelX(place.x / place.z), rays.pixelY(place.y / place.z)},
                 quadHalfSide * static_cast<double>(puff.radiusMetres) / place.z * pixelsPerSlope);
     }
-    for (const CollectedOctree& octree : volume.octrees())
+    for (const exports::CollectedOctree& octree : volume.octrees())
         for (const OctreeVoxel& voxel : octree.voxels)
             addVoxel(outlines.voxels, rays, nearMetres, octree.minimumCorner(voxel),
                      octree.cellEdgeMetres(voxel.level));
@@ -212,4 +214,4 @@ pictures::Image withOutlines(pictures::Image picture, const Outlines& outlines) 
     return picture;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

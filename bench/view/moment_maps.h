@@ -15,7 +15,7 @@
 #include "methods/kit/gpu/texture.h"
 #include "methods/kit/pictures/image.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 /// Number of pixels of a layer with values that are impossible in a picture.
 struct LayerFaults {
@@ -67,13 +67,13 @@ class MomentMaps {
 /// How many outlines of a method's primitives pass through each pixel, with rows from the top: the quad around each
 /// puff, the twelve edges of each voxel. Neither the scene nor other primitives hide them.
 struct Outlines {
-    Plane quads;   ///< of puffs: squares that face the camera, with half side 1.5 r, as in overdrawMap
-    Plane voxels;  ///< edges of the octrees' voxels, clipped in front of the eye
+    measure::Plane quads;   ///< of puffs: squares that face the camera, with half side 1.5 r, as in overdrawMap
+    measure::Plane voxels;  ///< edges of the octrees' voxels, clipped in front of the eye
 };
-[[nodiscard]] Outlines outlinesOf(const CollectedVolume& volume, const scene::View& view);
+[[nodiscard]] Outlines outlinesOf(const exports::CollectedVolume& volume, const scene::View& view);
 
 /// Draws quads yellow and voxels blue over the darkened picture, brighter where several overlap. Linear light. Throws
 /// std::invalid_argument if the sizes differ.
 [[nodiscard]] pictures::Image withOutlines(pictures::Image picture, const Outlines& outlines);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

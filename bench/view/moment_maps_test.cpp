@@ -10,7 +10,7 @@
 #include "bench/reference/judge/moment_pictures.h"
 #include "methods/kit/particles/particle_store.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 constexpr int width = 160, height = 120;
@@ -25,7 +25,7 @@ scene::View randomView(std::mt19937& random) {
     return view;
 }
 
-CollectedVolume puffAt(const glm::vec3& centre, float radiusMetres) {
+exports::CollectedVolume puffAt(const glm::vec3& centre, float radiusMetres) {
     MemoryLedger ledger;
     particles::ParticleStore store(ledger);
     store.resize(1);
@@ -33,21 +33,21 @@ CollectedVolume puffAt(const glm::vec3& centre, float radiusMetres) {
     store.x[0] = centre.x, store.y[0] = centre.y, store.z[0] = centre.z;
     store.radius[0] = radiusMetres;
     store.opacity[0] = 0.5f;
-    CollectedVolume volume;
+    exports::CollectedVolume volume;
     volume.puffs(store);
     return volume;
 }
 
 /// In a world of 8 m around the origin.
-CollectedVolume voxelAt(const glm::uvec3& cell, int level) {
+exports::CollectedVolume voxelAt(const glm::uvec3& cell, int level) {
     const std::vector voxels{OctreeVoxel{cell.x, cell.y, cell.z, level, 1.0f, 0.0f}};
-    CollectedVolume volume;
+    exports::CollectedVolume volume;
     volume.octree({glm::dvec3(-4), 8, 5, voxels});
     return volume;
 }
 
 /// A pixel of the plane that is not 0 lies at most `reach` away.
-bool hasNear(const Plane& plane, int x, int y, int reach) {
+bool hasNear(const measure::Plane& plane, int x, int y, int reach) {
     for (int j = std::max(y - reach, 0); j <= std::min(y + reach, plane.height - 1); ++j)
         for (int i = std::max(x - reach, 0); i <= std::min(x + reach, plane.width - 1); ++i)
             if (plane.at(i, j) > 0) return true;
@@ -55,8 +55,8 @@ bool hasNear(const Plane& plane, int x, int y, int reach) {
 }
 
 /// 1 where the value differs from that of a neighbour to the right or below.
-Plane borderOf(const Plane& map) {
-    Plane border(map.width, map.height);
+measure::Plane borderOf(const measure::Plane& map) {
+    measure::Plane border(map.width, map.height);
     for (int y = 0; y + 1 < map.height; ++y)
         for (int x = 0; x + 1 < map.width; ++x)
             border.at(x, y) = map.at(x, y) != map.at(x + 1, y) || map.at(x, y) != map.at(x, y + 1);
@@ -69,9 +69,10 @@ TEST(Outlines, OfAQuadAreTheBorderOfWhatOverdrawFills) {
     int found = 0;
     for (int trial = 0; trial < 100; ++trial) {
         const scene::View view = randomView(random);
-        const CollectedVolume puff =
+        const exports::CollectedVolume puff =
             puffAt({5 * upTo(random), 3 * upTo(random), 5 * upTo(random)}, 0.4f + 0.3f * upTo(random));
-        const Plane border = borderOf(overdrawMap(primitivesOnScreen(puff, view), width, height));
+        const measure::Plane border =
+            borderOf(measure::overdrawMap(reference::primitivesOnScreen(puff, view), width, height));
         const Outlines outlines = outlinesOf(puff, view);
         EXPECT_EQ(std::ranges::max(outlines.voxels.values), 0);
         for (int y = 1; y + 2 < height; ++y)
@@ -97,10 +98,10 @@ TEST(Outlines, OfAVoxelAreItsTwelveEdges) {
     std::mt19937 random(4);
     for (int trial = 0; trial < 60; ++trial) {
         const scene::View view = randomView(random);
-        const CameraRays rays(view);
+        const reference::CameraRays rays(view);
         const int level = 3;
         const glm::uvec3 cell(random() % 8, random() % 8, random() % 8);
-        const Plane drawn = outlinesOf(voxelAt(cell, level), view).voxels;
+        const measure::Plane drawn = outlinesOf(voxelAt(cell, level), view).voxels;
         std::vector<std::pair<glm::dvec2, glm::dvec2>> edges;
         const auto pixel = [&](const glm::dvec3& corner) {
             const glm::dvec3 place = rays.fromWorld(glm::dvec3(-4) + glm::dvec3(cell) + corner);
@@ -160,15 +161,15 @@ TEST(Outlines, OfWhatLiesBehindTheEyeAreNone) {
 
 TEST(Outlines, LieOverTheDarkenedPicture) {
     const pictures::Image picture{3, 1, std::vector<glm::vec4>(3, glm::vec4(0.5f, 0.4f, 0.3f, 1))};
-    Outlines outlines{Plane(3, 1), Plane(3, 1)};
+    Outlines outlines{measure::Plane(3, 1), measure::Plane(3, 1)};
     outlines.quads.values = {0, 1, 0};
     outlines.voxels.values = {0, 0, 9};
     const pictures::Image drawn = withOutlines(picture, outlines);
     for (int channel = 0; channel < 3; ++channel) EXPECT_LT(drawn.pixels[0][channel], picture.pixels[0][channel]);
     EXPECT_GT(drawn.pixels[1].r, drawn.pixels[1].b);
     EXPECT_GT(drawn.pixels[2].b, 0.8f);
-    EXPECT_THROW((void)withOutlines(picture, {Plane(2, 1), Plane(2, 1)}), std::invalid_argument);
+    EXPECT_THROW((void)withOutlines(picture, {measure::Plane(2, 1), measure::Plane(2, 1)}), std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

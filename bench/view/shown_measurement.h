@@ -13,7 +13,7 @@
 #include "bench/suite/suite.h"
 #include "bench/view/view_state.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 /// Minimum number of recorded frames: the run of a state at an earlier frame continues to here.
 inline constexpr std::int64_t minimumMeasuredFrames = 120;
@@ -21,10 +21,10 @@ inline constexpr int measuredRepetitions = 6;
 
 /// Plans runs of the state's halves up to its frame or further, with the null method in the same world. B is compared
 /// with A; a ground truth as B is left out. Throws InputError as runOf does, and if A and B are the same run.
-[[nodiscard]] Suite measurementOf(const ViewState& state);
+[[nodiscard]] suite::Suite measurementOf(const ViewState& state);
 
 struct MeasurementHooks {
-    ExecutionOptions execution;  ///< how runs are started; its `interrupted` is replaced
+    run::ExecutionOptions execution;  ///< how runs are started; its `interrupted` is replaced
     /// Called before each run, while nothing is timed; may draw.
     std::function<void(const std::string& progress)> between;
     /// Called several times a second while a run may be timed, so it must be cheap. Returns true to cancel.
@@ -33,7 +33,7 @@ struct MeasurementHooks {
 
 /// Executes the suite in `folder`, replacing older results of the same runs. Returns times and verdicts as sentences,
 /// or one sentence if it was cancelled. Throws InputError as `execute` does.
-[[nodiscard]] std::vector<std::string> measure(const Suite& suite, const std::filesystem::path& folder,
+[[nodiscard]] std::vector<std::string> measure(const suite::Suite& suite, const std::filesystem::path& folder,
                                                const MeasurementHooks& hooks);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

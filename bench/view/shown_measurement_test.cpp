@@ -12,7 +12,7 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 namespace fs = std::filesystem;
 
@@ -34,13 +34,13 @@ class ShownMeasurement : public testing::Test {
         fs::create_directories(folder_.path() / "made");
     }
     /// Child processes whose runs take `msOf` their method.
-    MeasurementHooks children(const Suite& suite, const std::function<double(const RunSpec&)>& msOf) {
-        for (const PlannedRun& run : planRuns(suite)) {
-            RunRecord record;
+    MeasurementHooks children(const suite::Suite& suite, const std::function<double(const results::RunSpec&)>& msOf) {
+        for (const suite::PlannedRun& run : suite::planRuns(suite)) {
+            results::RunRecord record;
             record.spec = run.spec;
-            record.summary = identityColumns(record, 2);
+            record.summary = results::identityColumns(record, 2);
             record.summary.emplace_back("frame_ms_median", msOf(run.spec));
-            writeWhole(folder_.path() / "made" / runId(run.spec), toJson(record));
+            exports::writeWhole(folder_.path() / "made" / results::runId(run.spec), results::toJson(record));
         }
         MeasurementHooks hooks;
         hooks.execution.command = [made = folder_.path() / "made"](const fs::path&, const fs::path& folder) {
@@ -53,9 +53,9 @@ class ShownMeasurement : public testing::Test {
         return hooks;
     }
     /// B takes half of A's time, with a scatter of a thousandth.
-    static double half(const RunSpec& spec) {
+    static double half(const results::RunSpec& spec) {
         const double scatter = 1 + 1e-3 * spec.repetition;
-        if (spec.method == baselineMethod) return 1;
+        if (spec.method == results::baselineMethod) return 1;
         return scatter * (spec.method == "billboard" ? 10 : 5);
     }
     [[nodiscard]] fs::path out() const { return folder_.path() / "out"; }
@@ -66,16 +66,16 @@ class ShownMeasurement : public testing::Test {
 };
 
 TEST_F(ShownMeasurement, IsTheRunsOfTheLinesLongEnough) {
-    Suite suite = measurementOf(state_);
+    suite::Suite suite = measurementOf(state_);
     ASSERT_EQ(suite.cells.size(), 2u);
-    RunSpec expected = runOf(state_, Half::b);
+    results::RunSpec expected = runOf(state_, Half::b);
     expected.frames = minimumMeasuredFrames;
-    expected.warmup = RunSpec().warmup;
+    expected.warmup = results::RunSpec().warmup;
     expected.imagesEvery = 0;
-    EXPECT_EQ(canonicalKey(suite.cells[1].spec), canonicalKey(expected));
+    EXPECT_EQ(results::canonicalKey(suite.cells[1].spec), results::canonicalKey(expected));
     state_.frame = 500;
     EXPECT_EQ(measurementOf(state_).cells[0].spec.frames, 501);
-    EXPECT_EQ(planRuns(suite).size(), 3u * measuredRepetitions);
+    EXPECT_EQ(suite::planRuns(suite).size(), 3u * measuredRepetitions);
     state_.b->method = exactPicture;
     EXPECT_EQ(measurementOf(state_).cells.size(), 1u);
     state_.b = state_.a;
@@ -85,7 +85,7 @@ TEST_F(ShownMeasurement, IsTheRunsOfTheLinesLongEnough) {
 }
 
 TEST_F(ShownMeasurement, EndsInAVerdictWithItsInterval) {
-    const Suite suite = measurementOf(state_);
+    const suite::Suite suite = measurementOf(state_);
     const auto sentences = measure(suite, out(), children(suite, half));
     EXPECT_THAT(sentences, Contains(AllOf(HasSubstr("frame_ms_median: B (octree_search) takes 0.5"), HasSubstr("["),
                                           HasSubstr("of the time of A (billboard): FASTER"))));
@@ -97,7 +97,7 @@ TEST_F(ShownMeasurement, EndsInAVerdictWithItsInterval) {
     EXPECT_THAT(reported_.back(), HasSubstr("run 18 of 18"));
     EXPECT_TRUE(fs::exists(out() / "summary.csv"));
     // Measured again, the old runs do not count.
-    const auto again = measure(suite, out(), children(suite, [](const RunSpec& spec) {
+    const auto again = measure(suite, out(), children(suite, [](const results::RunSpec& spec) {
                                    return spec.method == "octree_search" ? 2 * half(spec) : half(spec);
                                }));
     EXPECT_THAT(again, Contains(AllOf(HasSubstr("frame_ms_median: B"), HasSubstr("SAME"))));
@@ -105,14 +105,14 @@ TEST_F(ShownMeasurement, EndsInAVerdictWithItsInterval) {
 
 TEST_F(ShownMeasurement, OfAAloneIsItsTime) {
     state_.b.reset();
-    const Suite suite = measurementOf(state_);
+    const suite::Suite suite = measurementOf(state_);
     const auto sentences = measure(suite, out(), children(suite, half));
     EXPECT_THAT(sentences.front(), HasSubstr("A (billboard) takes 10.035 ms"));
     EXPECT_EQ(sentences.size(), 2u);
 }
 
 TEST_F(ShownMeasurement, IsCancelledAtAnyMomentAndSaysSo) {
-    const Suite suite = measurementOf(state_);
+    const suite::Suite suite = measurementOf(state_);
     MeasurementHooks hooks = children(suite, half);
     hooks.execution.command = [](const fs::path&, const fs::path&) {
         return std::vector<std::string>{"/bin/sleep", "60"};
@@ -123,7 +123,7 @@ TEST_F(ShownMeasurement, IsCancelledAtAnyMomentAndSaysSo) {
 }
 
 TEST_F(ShownMeasurement, ARunThatFailsIsNamed) {
-    const Suite suite = measurementOf(state_);
+    const suite::Suite suite = measurementOf(state_);
     MeasurementHooks hooks = children(suite, half);
     hooks.execution.command = [](const fs::path&, const fs::path&) {
         return std::vector<std::string>{"/bin/sh", "-c", "echo no memory >&2; exit 1"};
@@ -160,4 +160,4 @@ TEST_F(ShownMeasurement, OfAViewerStartsWithTheNextFrame) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -8,7 +8,7 @@
 #include "bench_view_shaders.h"
 #include "methods/kit/gpu/draw_call.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 /// Numbers of the shader's `source`.
@@ -110,4 +110,4 @@ void uploadRows(std::span<const float> values, gpu::Texture& texture) {
     texture.write(std::span<const float>(turned));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -13,7 +13,7 @@
 #include "methods/kit/gpu/vertex_array.h"
 #include "methods/kit/pictures/image.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 /// How the two pictures are combined. flip: FLIP's map between them.
 enum class Shown { a, b, wipe, sideBySide, difference, flip };
@@ -77,4 +77,4 @@ void upload(const pictures::Image& image, gpu::Texture& texture);
 /// Uploads one number per pixel into a texture with one channel.
 void uploadRows(std::span<const float> values, gpu::Texture& texture);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -11,7 +11,7 @@
 
 #include "methods/kit/draw/read_back.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 constexpr int splitWidth = 40, splitHeight = 30;
@@ -221,4 +221,4 @@ TEST_F(Split, MarksValuesThatAPictureCannotHave) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -12,7 +12,7 @@
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 pictures::Image opaque(pictures::Image image) {
@@ -23,7 +23,7 @@ pictures::Image opaque(pictures::Image image) {
 constexpr std::array<Half, 2> bothHalves{Half::a, Half::b};
 
 ParameterValues worldValues(const ViewState& state) {
-    ParameterValues values(worldParameters());
+    ParameterValues values(world::worldParameters());
     for (const auto& [name, text] : state.world) values.set(name, text);
     return values;
 }
@@ -43,9 +43,9 @@ ViewState worldAlone(ViewState state) {
     return state;
 }
 
-void aim(World& world, const ViewState& state) {
+void aim(world::World& world, const ViewState& state) {
     if (state.cameraPath.empty())
-        world.look(worldValues(state).choice("camera", cameraKinds));
+        world.look(worldValues(state).choice("camera", world::cameraKinds));
     else
         world.followPath(state.cameraPath);
 }
@@ -62,16 +62,16 @@ ExactHalf::ExactHalf(gpu::Device& device, int width, int height)
       layer_(gpu::Texture::make2D(device, "layer of the ground truth", gpu::Format::rgba32F, width, height)),
       depth_(gpu::Texture::make2D(device, "depth of the ground truth", gpu::Format::r32F, width, height)) {}
 
-void ExactHalf::draw(const DrawnMoment& drawn, const scene::Scene& scene, const scene::View& view, const Puffs& dust,
-                     std::string whyNotEvaluated) {
-    const std::int64_t start = steadyNow();
-    ReferenceStore none;
-    const ExactMoment exact = exactMoment(scene, view, drawn, dust, false, std::nullopt, none);
+void ExactHalf::draw(const reference::DrawnMoment& drawn, const scene::Scene& scene, const scene::View& view,
+                     const Puffs& dust, std::string whyNotEvaluated) {
+    const std::int64_t start = measure::steadyNow();
+    reference::ReferenceStore none;
+    const reference::ExactMoment exact = reference::exactMoment(scene, view, drawn, dust, false, std::nullopt, none);
     whyNotEvaluated_ = std::move(whyNotEvaluated);
     evaluated_ = {
         {}, opaque(pictures::over(drawn.layer, drawn.scene)), opaque(pictures::over(exact.layer, drawn.scene)), {}};
     try {
-        if (whyNotEvaluated_.empty()) evaluated_ = comparePictures(drawn, exact);
+        if (whyNotEvaluated_.empty()) evaluated_ = reference::comparePictures(drawn, exact);
     } catch (const InputError& error) {  // the picture contains values that are not finite
         whyNotEvaluated_ = error.what();
     }
@@ -79,7 +79,7 @@ void ExactHalf::draw(const DrawnMoment& drawn, const scene::Scene& scene, const 
     upload(drawn.scene, scene_);
     upload(exact.layer, layer_);
     uploadRows(drawn.sceneDepth, depth_);
-    seconds_ = static_cast<double>(steadyNow() - start) / 1e9;
+    seconds_ = static_cast<double>(measure::steadyNow() - start) / 1e9;
 }
 
 ViewSession::ViewSession(const ViewState& state, gpu::Device& device) : device_(device) {
@@ -95,7 +95,7 @@ ViewState ViewSession::state() const {
 
 void ViewSession::set(const ViewState& wanted) {
     const ViewState state = normalised(wanted);
-    if (!state.cameraPath.empty()) (void)CameraPath::read(state.cameraPath);
+    if (!state.cameraPath.empty()) (void)world::CameraPath::read(state.cameraPath);
     if (worldAlone(state) != worldAlone(state_) || state.frame < frame()) return begin(state);
     replaceHalves(state);
     aim(*world_, state);
@@ -110,8 +110,8 @@ void ViewSession::restart() {
 }
 
 void ViewSession::begin(const ViewState& state) {
-    auto input = std::make_shared<DrivingInput>();
-    std::unique_ptr<World> world = makeWorld(state, input);
+    auto input = std::make_shared<world::DrivingInput>();
+    std::unique_ptr<world::World> world = makeWorld(state, input);
     Halves halves;
     for (const Half which : bothHalves)
         if (needsHost(state, which)) halves[indexOf(which)] = makeHalf(state, which, *world);
@@ -125,29 +125,30 @@ void ViewSession::begin(const ViewState& state) {
     exact_.reset();
     recording_ = {};
     ++moment_;
-    next_ = -stepsBeforeWarmup(*world_) - state_.warmup;
+    next_ = -run::stepsBeforeWarmup(*world_) - state_.warmup;
     makeGroundTruth(state_);
 }
 
-std::unique_ptr<World> ViewSession::makeWorld(const ViewState& state, std::shared_ptr<DrivingInput> input) const {
+std::unique_ptr<world::World> ViewSession::makeWorld(const ViewState& state,
+                                                     std::shared_ptr<world::DrivingInput> input) const {
     const ParameterValues values = worldValues(state);
     auto world = state.drive == keyboardDrive
-                     ? std::make_unique<World>(state.scene, std::make_unique<KeyboardControls>(std::move(input)),
-                                               values, state.seed)
-                     : std::make_unique<World>(state.scene, state.drive, values, state.seed);
+                     ? std::make_unique<world::World>(
+                           state.scene, std::make_unique<world::KeyboardControls>(std::move(input)), values, state.seed)
+                     : std::make_unique<world::World>(state.scene, state.drive, values, state.seed);
     world->useDust({state.dust, state.dustColumns, state.warmup, /*frames=*/0});
     aim(*world, state);
     return world;
 }
 
-ViewSession::ShownHalf ViewSession::makeHalf(const ViewState& state, Half which, const World& world) const {
+ViewSession::ShownHalf ViewSession::makeHalf(const ViewState& state, Half which, const world::World& world) const {
     const MethodInfo& method = findMethod(half(state, which).method);
-    if (const std::string reason = whyNotTaken(method, world.scene()); !reason.empty())
+    if (const std::string reason = run::whyNotTaken(method, world.scene()); !reason.empty())
         throw InputError(fmt::format("method {} cannot show scene '{}': {}", method.id, state.scene, reason));
     ParameterValues values(method.parameters);
     for (const auto& [name, text] : half(state, which).parameters) values.set(name, text);
     ShownHalf shown;
-    shown.host = std::make_unique<MethodHost>(world, device_, method, values, state.size.width, state.size.height);
+    shown.host = std::make_unique<run::MethodHost>(world, device_, method, values, state.size.width, state.size.height);
     return shown;
 }
 
@@ -163,7 +164,7 @@ void ViewSession::replaceHalves(const ViewState& state) {
         if (!needsHost(state, which)) shown = {};
         if (!joining[indexOf(which)]) continue;
         shown = std::move(*joining[indexOf(which)]);
-        shown.sinceStart = frame() < -state.warmup - stepsBeforeWarmup(*world_);
+        shown.sinceStart = frame() < -state.warmup - run::stepsBeforeWarmup(*world_);
         if (!shown.sinceStart) updateHalf(shown);
     }
     if (!showsExact(state) || state.size != state_.size) exact_.reset();
@@ -176,13 +177,14 @@ void ViewSession::makeGroundTruth(const ViewState& state) {
     const bool isKnown =
         std::ranges::any_of(methods(), [](const MethodInfo& info) { return info.id == groundTruthMethod; });
     const bool isFast = world_->dust().uniformColour || !device_.isSoftware();
-    const bool isShown = showsExact(state) && isKnown && isFast && whyNotEvaluated({}, host(Half::a).method()).empty();
+    const bool isShown =
+        showsExact(state) && isKnown && isFast && run::whyNotEvaluated({}, host(Half::a).method()).empty();
     if (!isShown) groundTruth_ = {};
     if (!isShown || (groundTruth_.host && state.size == state_.size)) return;
     ViewState alone = state;
     alone.a = {groundTruthMethod, {}};
     groundTruth_ = makeHalf(alone, Half::a, *world_);
-    if (frame() >= -state.warmup - stepsBeforeWarmup(*world_)) updateHalf(groundTruth_);
+    if (frame() >= -state.warmup - run::stepsBeforeWarmup(*world_)) updateHalf(groundTruth_);
 }
 
 StageMs ViewSession::recordedMs() const {
@@ -203,10 +205,10 @@ void ViewSession::updateHalf(ShownHalf& shown) {
 }
 
 void ViewSession::step() {
-    const bool isOfDrive = world_->state().timeSeconds > -0.5 * stepSeconds;
-    const std::int64_t start = steadyNow();
+    const bool isOfDrive = world_->state().timeSeconds > -0.5 * world::stepSeconds;
+    const std::int64_t start = measure::steadyNow();
     world_->step();
-    worldMs_ = milliseconds(steadyNow() - start);
+    worldMs_ = milliseconds(measure::steadyNow() - start);
     ++next_;
     ++moment_;
     if (state_.drive == keyboardDrive && isOfDrive) recording_.add(world_->controls());
@@ -216,7 +218,7 @@ void ViewSession::step() {
     if (groundTruth_.host && frame() >= -state_.warmup - 1) updateHalf(groundTruth_);
 }
 
-void ViewSession::draw(const ImageSize& size) {
+void ViewSession::draw(const results::ImageSize& size) {
     resizeHosts(size);
     for (ShownHalf& shown : halves_) {
         if (!shown.host) continue;
@@ -232,7 +234,7 @@ void ViewSession::draw(const ImageSize& size) {
     noteDrawn();
 }
 
-void ViewSession::resizeHosts(const ImageSize& size) {
+void ViewSession::resizeHosts(const results::ImageSize& size) {
     for (ShownHalf& shown : halves_)
         if (shown.host) shown.host->resize(size.width, size.height);
     if (groundTruth_.host) groundTruth_.host->resize(size.width, size.height);
@@ -247,10 +249,10 @@ void ViewSession::noteDrawn() {
 void ViewSession::drawExact() {
     const StageClock untimed;
     resizeHosts(state_.size);
-    MethodHost& host = *halves_[indexOf(Half::a)].host;
-    const DrawnMoment drawn = host.drawn(host.see(frame(), untimed), false);
+    run::MethodHost& host = *halves_[indexOf(Half::a)].host;
+    const reference::DrawnMoment drawn = host.drawn(host.see(frame(), untimed), false);
     if (!exact_) exact_ = std::make_unique<ExactHalf>(device_, state_.size.width, state_.size.height);
-    exact_->draw(drawn, world_->scene(), view(), world_->unlitDust(), whyNotEvaluated({}, host.method()));
+    exact_->draw(drawn, world_->scene(), view(), world_->unlitDust(), run::whyNotEvaluated({}, host.method()));
     exactMoment_ = moment_;
     noteDrawn();
 }
@@ -261,7 +263,7 @@ bool ViewSession::isCurrent(Half half) const {
 
 HalfTextures ViewSession::textures(Half half) const {
     if (isExact(half) && isEvaluated()) return exact_->textures();
-    const MethodHost& drawn = isExact(half) ? *groundTruth_.host : host(half);
+    const run::MethodHost& drawn = isExact(half) ? *groundTruth_.host : host(half);
     return {drawn.display(), drawn.sceneColour(), drawn.layerColour(), drawn.sceneDepth()};
 }
 
@@ -274,7 +276,7 @@ pictures::Image ViewSession::image(Half half) const {
 
 void ViewSession::volume(Half half, VolumeVisitor& visitor) {
     const StageClock untimed;
-    MethodHost& shown = *halves_.at(indexOf(half)).host;
+    run::MethodHost& shown = *halves_.at(indexOf(half)).host;
     shown.method().volume(shown.see(frame(), untimed), visitor);
 }
 
@@ -287,4 +289,4 @@ ViewState ViewSession::replayOf(const std::string& file) const {
     return replay;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -22,7 +22,7 @@
 #include "bench/world/world.h"
 #include "methods/kit/gpu/device.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 /// The ground truth of one moment as textures, and the metrics of a method compared with it. bench/reference draws it,
 /// as for the metrics of a run (bench/reference/judge). That takes from a few milliseconds to seconds.
@@ -32,12 +32,12 @@ class ExactHalf {
 
     /// Draws the dust, given in its colours without light, in front of the method's scene and compares the method's
     /// picture with it. `whyNotEvaluated`: why metrics would be meaningless; if empty, they are computed.
-    void draw(const DrawnMoment& drawn, const scene::Scene& scene, const scene::View& view, const Puffs& dust,
-              std::string whyNotEvaluated);
+    void draw(const reference::DrawnMoment& drawn, const scene::Scene& scene, const scene::View& view,
+              const Puffs& dust, std::string whyNotEvaluated);
 
     [[nodiscard]] HalfTextures textures() const { return {display_, scene_, layer_, depth_}; }
     /// The ground truth and the method's picture: linear light, opaque.
-    [[nodiscard]] const EvaluatedMoment& evaluated() const { return evaluated_; }
+    [[nodiscard]] const reference::EvaluatedMoment& evaluated() const { return evaluated_; }
     /// Why `evaluated` has no metrics; empty if it has.
     [[nodiscard]] const std::string& whyNotEvaluated() const { return whyNotEvaluated_; }
     /// Duration of the last draw(), including metrics.
@@ -45,7 +45,7 @@ class ExactHalf {
 
  private:
     gpu::Texture display_, scene_, layer_, depth_;
-    EvaluatedMoment evaluated_;
+    reference::EvaluatedMoment evaluated_;
     std::string whyNotEvaluated_;
     double seconds_ = 0;
 };
@@ -86,9 +86,9 @@ class ViewSession {
 
     /// Draws every method at the state's size or at `size`. The pictures are valid until the next call or set().
     void draw() { draw(state_.size); }
-    void draw(const ImageSize& size);
+    void draw(const results::ImageSize& size);
     /// Size of the last draw().
-    [[nodiscard]] ImageSize drawnSize() const { return drawnSize_; }
+    [[nodiscard]] results::ImageSize drawnSize() const { return drawnSize_; }
     /// Draws the ground truth of the world's current state, and the methods, at the state's size. Half B must be the
     /// ground truth.
     void drawExact();
@@ -109,13 +109,13 @@ class ViewSession {
     /// The picture in linear light, opaque, at the size at which it was drawn.
     [[nodiscard]] pictures::Image image(Half half) const;
 
-    [[nodiscard]] const World& world() const { return *world_; }
+    [[nodiscard]] const world::World& world() const { return *world_; }
     [[nodiscard]] scene::View view() const { return world_->view(state_.size.width, state_.size.height); }
     [[nodiscard]] bool has(Half half) const { return hasHost(half) || isExact(half); }
     [[nodiscard]] bool isExact(Half half) const { return half == Half::b && showsExact(state_); }
     [[nodiscard]] bool hasHost(Half half) const { return static_cast<bool>(halves_.at(indexOf(half)).host); }
     /// The half must be a method.
-    [[nodiscard]] const MethodHost& host(Half half) const { return *halves_.at(indexOf(half)).host; }
+    [[nodiscard]] const run::MethodHost& host(Half half) const { return *halves_.at(indexOf(half)).host; }
     /// Visits the volume that a half's method shows.
     void volume(Half half, VolumeVisitor& visitor);
     /// The ground truth in half B; isEvaluated() must be true.
@@ -127,8 +127,8 @@ class ViewSession {
     [[nodiscard]] bool isSinceStart(Half half) const { return halves_.at(indexOf(half)).sinceStart; }
 
     /// The driver's current input; only read if the drive is keyboardDrive.
-    [[nodiscard]] DrivingInput& input() { return *input_; }
-    [[nodiscard]] const DrivingInput& input() const { return *input_; }
+    [[nodiscard]] world::DrivingInput& input() { return *input_; }
+    [[nodiscard]] const world::DrivingInput& input() const { return *input_; }
     /// The recorded drive as a drive file, and the state that replays it from `file`. Throws std::logic_error unless
     /// the drive is keyboardDrive and has begun.
     [[nodiscard]] std::string recordedDrive() const { return recording_.csv(); }
@@ -137,7 +137,7 @@ class ViewSession {
 
  private:
     struct ShownHalf {
-        std::unique_ptr<MethodHost> host;
+        std::unique_ptr<run::MethodHost> host;
         HalfCost cost;
         bool sinceStart = true;
     };
@@ -145,30 +145,31 @@ class ViewSession {
 
     static std::size_t indexOf(Half half) { return half == Half::a ? 0 : 1; }
     void begin(const ViewState& state);
-    [[nodiscard]] std::unique_ptr<World> makeWorld(const ViewState& state, std::shared_ptr<DrivingInput> input) const;
-    [[nodiscard]] ShownHalf makeHalf(const ViewState& state, Half half, const World& world) const;
+    [[nodiscard]] std::unique_ptr<world::World> makeWorld(const ViewState& state,
+                                                          std::shared_ptr<world::DrivingInput> input) const;
+    [[nodiscard]] ShownHalf makeHalf(const ViewState& state, Half half, const world::World& world) const;
     void replaceHalves(const ViewState& state);
     void updateHalf(ShownHalf& shown);
     void makeGroundTruth(const ViewState& state);
-    void resizeHosts(const ImageSize& size);
+    void resizeHosts(const results::ImageSize& size);
     void noteDrawn();
     [[nodiscard]] StageMs recordedMs() const;
 
     gpu::Device& device_;
     ViewState state_;
-    std::shared_ptr<DrivingInput> input_;
-    std::unique_ptr<World> world_;
+    std::shared_ptr<world::DrivingInput> input_;
+    std::unique_ptr<world::World> world_;
     Halves halves_;
     std::unique_ptr<ExactHalf> exact_;
     ShownHalf
         groundTruth_;  ///< draws with groundTruthMethod; empty if half B is a method, or if A shows dust of its own
-    ControlRecording recording_;
+    world::ControlRecording recording_;
     std::int64_t next_ = 0;
     std::int64_t moment_ = 0, drawnMoment_ = -1, exactMoment_ = -1;
     std::int64_t drawnFrame_ = 0;
-    ImageSize drawnSize_;
-    StageRecorder recorder_;
+    results::ImageSize drawnSize_;
+    measure::StageRecorder recorder_;
     double worldMs_ = 0;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

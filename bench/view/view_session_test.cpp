@@ -10,7 +10,7 @@
 #include "methods/contract/registry.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 using ::testing::HasSubstr;
@@ -28,16 +28,16 @@ void goOn(ViewSession& session) {
     while (session.stepsToGo() > 0) session.step();
     session.draw();
 }
-bool takes(const MethodInfo& method, const World& world) {
+bool takes(const MethodInfo& method, const world::World& world) {
     return !method.cannotTake || method.cannotTake(world.scene()).empty();
 }
 bool hasMethod(std::string_view id) {
     return std::ranges::any_of(methods(), [id](const MethodInfo& info) { return info.id == id; });
 }
 /// A run has a context of its own, so no other may be in use.
-RunRecord runOfLine(const std::string& line, const std::filesystem::path& folder) {
-    return measureRun(runOf(stateOfCommandLine(line), Half::a), folder, {},
-                      [](std::string_view, std::int64_t, std::int64_t) {});
+results::RunRecord runOfLine(const std::string& line, const std::filesystem::path& folder) {
+    return run::measureRun(runOf(stateOfCommandLine(line), Half::a), folder, {},
+                           [](std::string_view, std::int64_t, std::int64_t) {});
 }
 
 class Session : public testing::Test {
@@ -62,7 +62,8 @@ TEST(SessionAndRun, ShowThePictureOfTheCommandLine) {
         state.seed = 5;
         state.frame = 7;
         state.world["camera"] = "wheel";
-        if (!takes(method, World(state.scene, state.drive, ParameterValues(worldParameters()), 1))) continue;
+        if (!takes(method, world::World(state.scene, state.drive, ParameterValues(world::worldParameters()), 1)))
+            continue;
         std::string line, hash;
         pictures::Image shown;
         {
@@ -120,7 +121,7 @@ TEST_F(Session, ANewHalfAndAnotherCameraLeaveTheWorldGoingOn) {
     ViewSession session(state, device_);
     goOn(session);
     const std::uint64_t before = session.world().stateHash();
-    const MethodHost* kept = &session.host(Half::a);
+    const run::MethodHost* kept = &session.host(Half::a);
     state.b = HalfState{"octree_search", {}};
     state.cameraPath = "0,30,4,24,0,1,0,50";
     session.set(state);
@@ -208,7 +209,7 @@ TEST(SessionAndRun, EndARecordedDriveInTheSameState) {
 
 TEST_F(Session, RefusesASceneThatItsMethodCannotTake) {
     for (const MethodInfo& method : methods()) {
-        const World world("plain", "", ParameterValues(worldParameters()), 1);
+        const world::World world("plain", "", ParameterValues(world::worldParameters()), 1);
         if (takes(method, world)) continue;
         EXPECT_THAT(inputError([&] { ViewSession(smallView(method.id), device_); }),
                     HasSubstr("cannot show scene 'plain'"));
@@ -216,4 +217,4 @@ TEST_F(Session, RefusesASceneThatItsMethodCannotTake) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

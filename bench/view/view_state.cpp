@@ -20,22 +20,22 @@
 #include "methods/kit/files/toml_reader.h"
 #include "methods/kit/files/toml_text.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 /// The smallest part of `given` that results in the same values.
-ParameterTexts necessary(const MethodInfo& method, const ParameterTexts& given) {
-    const ParameterTexts whole = canonicalParameters(method, given);
-    ParameterTexts needed = whole;
+results::ParameterTexts necessary(const MethodInfo& method, const results::ParameterTexts& given) {
+    const results::ParameterTexts whole = results::canonicalParameters(method, given);
+    results::ParameterTexts needed = whole;
     for (const auto& [name, value] : whole) {
         needed.erase(name);
-        if (canonicalParameters(method, needed) != whole) needed[name] = value;
+        if (results::canonicalParameters(method, needed) != whole) needed[name] = value;
     }
     return needed;
 }
 
-ParameterTexts merged(const ParameterTexts& world, const ParameterTexts& method) {
-    ParameterTexts all = world;
+results::ParameterTexts merged(const results::ParameterTexts& world, const results::ParameterTexts& method) {
+    results::ParameterTexts all = world;
     for (const auto& [name, value] : method) all[name] = value;
     return all;
 }
@@ -78,7 +78,7 @@ void addParameter(std::vector<std::string>& words, const MethodInfo& method, con
         for (const std::string& change : split(value, ';')) words.insert(words.end(), {"--at", change});
         return;
     }
-    if (expandValues(name, value) != std::vector{value})
+    if (suite::expandValues(name, value) != std::vector{value})
         throw InputError(fmt::format("parameter {}: the command line would read '{}' as several values", name, value));
     words.insert(words.end(), {"-P", name + "=" + value});
 }
@@ -95,7 +95,7 @@ std::int64_t integer(const std::string& option, const std::string& text, std::in
 class LineReader {
  public:
     LineReader() {
-        state_.warmup = RunSpec().warmup;
+        state_.warmup = results::RunSpec().warmup;
         const auto text = [](std::string& place) { return [&place](const std::string& value) { place = value; }; };
         options_ = {
             {"--method", text(state_.a.method)},
@@ -106,7 +106,7 @@ class LineReader {
             {"--dust-columns", text(state_.dustColumns)},
             {"-P", [this](const std::string& value) { setParameter(value); }},
             {"--at", [this](const std::string& value) { changes_ += (changes_.empty() ? "" : ";") + value; }},
-            {"--size", [this](const std::string& value) { state_.size = parseSize(value); }},
+            {"--size", [this](const std::string& value) { state_.size = results::parseSize(value); }},
             {"--seed",
              [this](const std::string& value) {
                  state_.seed = static_cast<std::uint64_t>(integer("--seed", value, 0));
@@ -119,7 +119,7 @@ class LineReader {
         for (const char* other :
              {"--out", "--sync", "--images", "--video", "--gif", "--volumes", "--format", "--resolution", "--region"})
             options_[other] = [](const std::string&) {};
-        for (const ExporterOption& option : exporterOptions())
+        for (const exports::ExporterOption& option : exports::exporterOptions())
             options_[option.commandName()] = [](const std::string&) {};
     }
 
@@ -157,7 +157,7 @@ class LineReader {
         const std::size_t equals = text.find('=');
         if (equals == 0 || equals == std::string::npos) throw InputError("-P: got '" + text + "', expected name=value");
         const std::string name = text.substr(0, equals);
-        const std::vector<std::string> values = expandValues(name, text.substr(equals + 1));
+        const std::vector<std::string> values = suite::expandValues(name, text.substr(equals + 1));
         if (values.size() != 1)
             throw InputError(fmt::format("-P: parameter {}: got {} values, expected one", name, values.size()));
         if (!given_.emplace(name, values.front()).second) throw InputError("-P: parameter " + name + " is given twice");
@@ -171,8 +171,8 @@ class LineReader {
                 throw InputError("--at: method '" + method.id + "' has no setting that can change during a run");
             given_[changes->name] = changes_;
         }
-        (void)resolveParameters(method, given_);
-        if (!state_.cameraPath.empty()) (void)CameraPath::read(state_.cameraPath);
+        (void)results::resolveParameters(method, given_);
+        if (!state_.cameraPath.empty()) (void)world::CameraPath::read(state_.cameraPath);
         for (const auto& [name, value] : given_)
             (method.parameters.find(name) ? state_.a.parameters : state_.world)[name] = value;
         state_.frame = frames_ - 1;
@@ -185,9 +185,9 @@ class LineReader {
     }
 
     ViewState state_;
-    ParameterTexts given_;
+    results::ParameterTexts given_;
     std::string changes_;
-    std::int64_t frames_ = RunSpec().frames;
+    std::int64_t frames_ = results::RunSpec().frames;
     std::map<std::string, std::function<void(const std::string&)>> options_;
 };
 
@@ -197,7 +197,7 @@ using files::TomlReader, files::tomlText;
 
 constexpr std::int64_t maximumInteger = std::numeric_limits<std::int64_t>::max();
 
-std::string tableOf(const std::string& name, const ParameterTexts& parameters) {
+std::string tableOf(const std::string& name, const results::ParameterTexts& parameters) {
     if (parameters.empty()) return {};
     std::string text = "\n[" + name + "]\n";
     for (const auto& [parameter, value] : parameters)
@@ -210,8 +210,8 @@ std::string halfText(const std::string& name, const HalfState& half) {
            tableOf(name + ".parameters", half.parameters);
 }
 
-ParameterTexts readParameters(TomlReader& parent, const std::string& key) {
-    ParameterTexts parameters;
+results::ParameterTexts readParameters(TomlReader& parent, const std::string& key) {
+    results::ParameterTexts parameters;
     if (!parent.has(key)) return parameters;
     TomlReader table = parent.table(key);
     for (const std::string& name : table.keys()) {
@@ -243,7 +243,7 @@ HalfState readHalf(TomlReader& root, const char* name) {
         const MethodInfo& method = findMethod(half.method);
         ParameterValues values(method.parameters);
         for (const auto& [parameter, value] : half.parameters) {
-            if (!method.parameters.find(parameter)) (void)resolveParameters(method, {{parameter, value}});
+            if (!method.parameters.find(parameter)) (void)results::resolveParameters(method, {{parameter, value}});
             values.set(parameter, value);
         }
     });
@@ -262,7 +262,7 @@ bool showsExact(const ViewState& state) {
     return state.b && state.b->method == exactPicture;
 }
 
-RunSpec runOf(const ViewState& state, Half which) {
+results::RunSpec runOf(const ViewState& state, Half which) {
     if (state.drive == keyboardDrive)
         throw InputError("drive: a run cannot be driven by keyboard; save the recording and use its file as the drive");
     const HalfState& shown = half(state, which);
@@ -270,14 +270,14 @@ RunSpec runOf(const ViewState& state, Half which) {
         throw InputError(
             "exact: no run draws the ground truth; `dustbench run --metrics` saves it next to the method's pictures");
     const MethodInfo& method = findMethod(shown.method);
-    RunSpec spec;
+    results::RunSpec spec;
     spec.method = method.id;
     spec.scene = state.scene;
     spec.drive = state.drive;
     spec.cameraPath = state.cameraPath;
     spec.dust = state.dust;
     spec.dustColumns = state.dustColumns;
-    spec.parameters = canonicalParameters(method, merged(state.world, shown.parameters));
+    spec.parameters = results::canonicalParameters(method, merged(state.world, shown.parameters));
     spec.frames = state.frame + 1;
     spec.warmup = state.warmup;
     spec.size = state.size;
@@ -293,10 +293,10 @@ ViewState normalised(const ViewState& state) {
     ViewState result = state;
     result.a = normalisedHalf(state.a);
     if (state.b) result.b = normalisedHalf(*state.b);
-    ParameterValues world(worldParameters());
+    ParameterValues world(world::worldParameters());
     for (const auto& [name, value] : state.world) world.set(name, value);
     result.world.clear();
-    for (const Parameter& parameter : worldParameters().all())
+    for (const Parameter& parameter : world::worldParameters().all())
         if (const std::string& value = world.canonical().at(parameter.name); value != parameter.initial)
             result.world[parameter.name] = value;
     return result;
@@ -306,7 +306,7 @@ ViewState normalised(const ViewState& state) {
 
 std::string commandLine(const ViewState& given, Half which, const std::string& out) {
     const ViewState state = normalised(given);
-    const RunSpec spec = runOf(state, which);
+    const results::RunSpec spec = runOf(state, which);
     const MethodInfo& method = findMethod(spec.method);
     std::vector<std::string> words{"dustbench", "run", "--method", spec.method, "--scene", spec.scene};
     const auto add = [&words](const char* option, const std::string& value) {
@@ -316,9 +316,9 @@ std::string commandLine(const ViewState& given, Half which, const std::string& o
     if (!spec.cameraPath.empty()) add("--camera-path", spec.cameraPath);
     if (!spec.dust.empty()) add("--dust", spec.dust);
     if (!spec.dustColumns.empty()) add("--dust-columns", spec.dustColumns);
-    for (const ParameterTexts& set : {state.world, half(state, which).parameters})
+    for (const results::ParameterTexts& set : {state.world, half(state, which).parameters})
         for (const auto& [name, value] : set) addParameter(words, method, name, value);
-    if (spec.seed != RunSpec().seed) add("--seed", std::to_string(spec.seed));
+    if (spec.seed != results::RunSpec().seed) add("--seed", std::to_string(spec.seed));
     if (spec.threads != 0) add("--threads", std::to_string(spec.threads));
     add("--size", fmt::format("{}x{}", spec.size.width, spec.size.height));
     add("--warmup", std::to_string(spec.warmup));
@@ -326,12 +326,12 @@ std::string commandLine(const ViewState& given, Half which, const std::string& o
     add("--images", std::to_string(spec.imagesEvery));
     add("--out", out);
     std::string line;
-    for (const std::string& word : words) line += (line.empty() ? "" : " ") + shellQuoted(word);
+    for (const std::string& word : words) line += (line.empty() ? "" : " ") + results::shellQuoted(word);
     return line;
 }
 
 ViewState stateOfCommandLine(std::string_view line) {
-    return LineReader().read(shellWords(line));
+    return LineReader().read(results::shellWords(line));
 }
 
 // --- As TOML, and back
@@ -364,9 +364,9 @@ ViewState stateOfToml(std::string_view text, const std::string& name) {
     state.frame = root.integer("frame", 0, 10'000'000, 0);
     state.world = readParameters(root, "world");
     checked(root, [&] {
-        state.size = parseSize(size);
-        if (!state.cameraPath.empty()) (void)CameraPath::read(state.cameraPath);
-        ParameterValues values(worldParameters());
+        state.size = results::parseSize(size);
+        if (!state.cameraPath.empty()) (void)world::CameraPath::read(state.cameraPath);
+        ParameterValues values(world::worldParameters());
         for (const auto& [parameter, value] : state.world) values.set(parameter, value);
     });
     state.a = readHalf(root, "a");
@@ -376,4 +376,4 @@ ViewState stateOfToml(std::string_view text, const std::string& name) {
     return state;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -10,7 +10,7 @@
 
 #include "bench/results/run_spec.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 enum class Half { a, b };
 
@@ -22,7 +22,7 @@ inline constexpr const char* groundTruthMethod = "exact_tiles";
 /// A method and the parameters that are set; the others have their defaults.
 struct HalfState {
     std::string method;  ///< or exactPicture
-    ParameterTexts parameters;
+    results::ParameterTexts parameters;
 
     friend bool operator==(const HalfState&, const HalfState&) = default;
 };
@@ -33,9 +33,9 @@ struct ViewState {
     std::string cameraPath;  ///< file or rows (cameras.h); empty: the camera of the world's parameters
     std::string dust;        ///< file of particles; empty: the scene's dust
     std::string dustColumns;
-    ParameterTexts world;  ///< parameters of the world that are set
+    results::ParameterTexts world;  ///< parameters of the world that are set
     std::uint64_t seed = 1;
-    ImageSize size;
+    results::ImageSize size;
     int threads = 0;          ///< 0: one per core
     std::int64_t warmup = 0;  ///< number of frames before frame 0, as in a run
     std::int64_t frame = 0;
@@ -54,7 +54,7 @@ inline constexpr const char* keyboardDrive = "keyboard";
 
 /// The run that ends with the half's picture. Throws InputError for an unknown name or an invalid value, and for
 /// keyboardDrive and exactPicture.
-[[nodiscard]] RunSpec runOf(const ViewState& state, Half half);
+[[nodiscard]] results::RunSpec runOf(const ViewState& state, Half half);
 
 /// Removes parameters that equal their defaults, with presets considered, and writes values in canonical form, so that
 /// equivalent states are equal. Throws InputError for an unknown name or an invalid value.
@@ -72,4 +72,4 @@ inline constexpr const char* keyboardDrive = "keyboard";
 /// `name` is the file in messages. Throws InputError with file, line and the expected content.
 [[nodiscard]] ViewState stateOfToml(std::string_view text, const std::string& name);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -11,7 +11,7 @@
 #include "methods/kit/files/csv.h"
 #include "methods/kit/testing/test_input_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 using ::testing::HasSubstr;
@@ -61,7 +61,8 @@ void expectSameText(const ViewState& state) {
     const std::string line = commandLine(state, Half::a, "out/view");
     EXPECT_EQ(stateOfCommandLine(line), state) << line;
     EXPECT_EQ(stateOfToml(toToml(state), "state.toml"), state) << toToml(state);
-    EXPECT_EQ(canonicalKey(runOf(stateOfCommandLine(line), Half::a)), canonicalKey(runOf(state, Half::a)));
+    EXPECT_EQ(results::canonicalKey(runOf(stateOfCommandLine(line), Half::a)),
+              results::canonicalKey(runOf(state, Half::a)));
 }
 
 TEST(ViewState, OfEveryMethodAndParameterIsItsText) {
@@ -77,7 +78,7 @@ TEST(ViewState, OfEveryMethodAndParameterIsItsText) {
             EXPECT_EQ(kept.contains(parameter.name), otherValue(parameter) != parameter.initial);
         }
         expectSameText(normalised(all));
-        for (const Parameter& parameter : worldParameters().all()) {
+        for (const Parameter& parameter : world::worldParameters().all()) {
             if (method.parameters.find(parameter.name)) continue;
             ViewState one = unusual(method.id);
             one.world[parameter.name] = otherValue(parameter);
@@ -103,7 +104,7 @@ TEST(ViewState, OfDefaultsNamesNoParameters) {
     state.a.method = methods().front().id;
     for (const Parameter& parameter : methods().front().parameters.all())
         state.a.parameters[parameter.name] = parameter.initial;
-    for (const Parameter& parameter : worldParameters().all()) state.world[parameter.name] = parameter.initial;
+    for (const Parameter& parameter : world::worldParameters().all()) state.world[parameter.name] = parameter.initial;
     EXPECT_THAT(commandLine(state, Half::a, "o"), ::testing::Not(HasSubstr("-P")));
     EXPECT_EQ(toToml(normalised(state)).find("parameters"), std::string::npos);
 }
@@ -127,11 +128,11 @@ TEST(ViewState, OfALineHasTheRunsLastFrameAndItsWarmUp) {
     const std::string method = methods().front().id;
     const ViewState state = stateOfCommandLine("build/release/dustbench run --method=" + method +
                                                " -P particles=5 --out o --metrics --sync stage --images 4");
-    EXPECT_EQ(state.frame, RunSpec().frames - 1);
-    EXPECT_EQ(state.warmup, RunSpec().warmup);
-    EXPECT_EQ(state.size, RunSpec().size);
+    EXPECT_EQ(state.frame, results::RunSpec().frames - 1);
+    EXPECT_EQ(state.warmup, results::RunSpec().warmup);
+    EXPECT_EQ(state.size, results::RunSpec().size);
     EXPECT_EQ(state.world.at("particles"), "5");
-    EXPECT_EQ(runOf(state, Half::a).frames, RunSpec().frames);
+    EXPECT_EQ(runOf(state, Half::a).frames, results::RunSpec().frames);
 }
 
 TEST(ViewState, SaysWhatIsWrongWithALine) {
@@ -190,4 +191,4 @@ TEST(ViewState, TheExactPictureIsHalfBAlone) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

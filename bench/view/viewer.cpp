@@ -12,14 +12,14 @@
 #include "methods/kit/files/whole_text.h"
 #include "methods/kit/gpu/egl_context.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 constexpr double turnPerHeight = 3;  ///< radians for a drag over the picture's height
 constexpr float stickPlay = 0.08f;   ///< of a gamepad's stick at rest
 
 std::string nextCamera(const ViewState& state) {
-    const std::vector<std::string> words = cameraKinds.words();
+    const std::vector<std::string> words = world::cameraKinds.words();
     if (!state.cameraPath.empty()) return words.front();
     const auto given = state.world.find("camera");
     const auto now = std::ranges::find(words, given == state.world.end() ? words.front() : given->second);
@@ -140,7 +140,7 @@ void Viewer::perform(Action action) {
         }
         case Action::addCameraKey:
             std::erase_if(cameraKeys_, [now = std::max(session_.world().state().timeSeconds, 0.0)](
-                                           const CameraKey& key) { return key.seconds >= now; });
+                                           const world::CameraKey& key) { return key.seconds >= now; });
             cameraKeys_.push_back(keyOf(session_.world().view(1, 1).camera, session_.world().state().timeSeconds));
             message_ = fmt::format("camera path: {} keys", cameraKeys_.size());
             break;
@@ -148,7 +148,7 @@ void Viewer::perform(Action action) {
             if (cameraKeys_.empty())
                 message_ = "camera path: no keys; press K to add one";
             else
-                save("camera_path.csv", CameraPath(cameraKeys_).csv());
+                save("camera_path.csv", world::CameraPath(cameraKeys_).csv());
             break;
         case Action::difference:
             if (session_.has(Half::b)) split.shown = split.shown == Shown::difference ? Shown::wipe : Shown::difference;
@@ -219,7 +219,7 @@ void Viewer::apply(const ViewState& state) {
 
 void Viewer::applyText(const std::string& text) {
     attempt([&] {
-        const std::vector<std::string> words = shellWords(text.substr(0, text.find('\n')));
+        const std::vector<std::string> words = results::shellWords(text.substr(0, text.find('\n')));
         const bool isLine = words.size() > 1 && (words[0] == "run" || words[1] == "run");
         ViewState state = isLine ? stateOfCommandLine(text) : stateOfToml(text, "pasted text");
         if (isLine) state.b = session_.state().b;
@@ -249,7 +249,7 @@ void Viewer::requireContext() const {
 
 void Viewer::makeFrame(double secondsForPreroll) {
     if (std::exchange(measureAsked_, false)) attempt([&] { measureShown(); });
-    const std::int64_t start = steadyNow();
+    const std::int64_t start = measure::steadyNow();
     paced_.reset();
     if (isCosted_) {
         FrameCost& cost = costs_.back();
@@ -271,7 +271,7 @@ void Viewer::makeFrame(double secondsForPreroll) {
 /// Meanwhile only the progress is drawn, between two runs.
 void Viewer::measureShown() {
     if (!measurement_) throw InputError("measure: this program cannot start runs");
-    const Suite suite = measurementOf(session_.state());
+    const suite::Suite suite = measurementOf(session_.state());
     isCosted_ = false;  // the window's share would include the measurement
     device_.finish();
     MeasurementHooks hooks = *measurement_;
@@ -298,8 +298,8 @@ void Viewer::noteCost(bool wasStepped, bool wasDrawn) {
 }
 
 void Viewer::goOn(double secondsForPreroll) {
-    const std::int64_t start = steadyNow();
-    const auto isEarly = [&] { return static_cast<double>(steadyNow() - start) < 1e9 * secondsForPreroll; };
+    const std::int64_t start = measure::steadyNow();
+    const auto isEarly = [&] { return static_cast<double>(measure::steadyNow() - start) < 1e9 * secondsForPreroll; };
     if (session_.stepsToGo() > 0)
         while (session_.stepsToGo() > 0 && isEarly()) session_.step();
     else if (!paused && ++framesSinceStep_ >= slowness) {
@@ -311,17 +311,17 @@ void Viewer::goOn(double secondsForPreroll) {
 template <typename Move>
 void Viewer::moveCamera(const Move& move) {
     ViewState state = session_.state();
-    const CameraKey key = move(keyOf(session_.world().view(1, 1).camera, 0));
-    state.cameraPath = CameraPath({key}).rows();
+    const world::CameraKey key = move(keyOf(session_.world().view(1, 1).camera, 0));
+    state.cameraPath = world::CameraPath({key}).rows();
     apply(state);
 }
 
 void Viewer::turnCamera(double right, double up) {
-    moveCamera([&](const CameraKey& key) { return turned(key, -turnPerHeight * right, -turnPerHeight * up); });
+    moveCamera([&](const world::CameraKey& key) { return turned(key, -turnPerHeight * right, -turnPerHeight * up); });
 }
 
 void Viewer::shiftCamera(double right, double up) {
-    moveCamera([&](const CameraKey& key) {
+    moveCamera([&](const world::CameraKey& key) {
         // Objects at the target's distance follow the mouse.
         const double height =
             2 * glm::distance(key.eye, key.target) * std::tan(glm::radians(key.fieldOfViewDegrees) / 2);
@@ -330,7 +330,7 @@ void Viewer::shiftCamera(double right, double up) {
 }
 
 void Viewer::dollyCamera(double factor) {
-    moveCamera([&](const CameraKey& key) { return dollied(key, factor); });
+    moveCamera([&](const world::CameraKey& key) { return dollied(key, factor); });
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -21,7 +21,7 @@
 #include "bench/view/split_view.h"
 #include "bench/view/view_session.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 /// Slow motion: full speed, half, a quarter, an eighth.
 inline constexpr std::array<int, 4> slownesses{1, 2, 4, 8};
@@ -140,7 +140,7 @@ class Viewer {
     void drawAtFullSize();
     [[nodiscard]] bool isPaced() const;
     [[nodiscard]] bool nothingMoves() const { return paused && !session_.isBehind(); }
-    [[nodiscard]] ImageSize sizeNow() const;
+    [[nodiscard]] results::ImageSize sizeNow() const;
     void noteCost(bool wasStepped, bool wasDrawn);
     void drawExact();
     void compose(const SplitSettings& settings);
@@ -180,10 +180,10 @@ class Viewer {
     std::string stamp_;
     std::array<bool, keyCount> held_{};
     PadState pad_;
-    std::vector<CameraKey> cameraKeys_;
+    std::vector<world::CameraKey> cameraKeys_;
     std::string message_, copied_;
     std::function<bool()> isLost_;
     bool quit_ = false;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -1,14 +1,14 @@
 // Frames of the window without its panels: billboards next to power moments, as `dustbench view` shows them.
 //
 // Target: 15 frames per second at 320×240 with 3,000 particles on two cores without a GPU.
+#include "bench/view/viewer.h"
+
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
 #include <string>
 
-#include "bench/view/viewer.h"
-
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 /// Argument: the pictures' height; their shape is 4:3.
@@ -48,4 +48,4 @@ void shownFrame(benchmark::State& state) {
 
 BENCHMARK(shownFrame)->Arg(120)->Arg(240)->Arg(480)->Unit(benchmark::kMillisecond)->MinTime(2);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

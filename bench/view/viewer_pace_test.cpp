@@ -12,12 +12,12 @@
 #include "methods/kit/files/limits.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr ImageSize full{80, 60}, lowered{48, 36};
+constexpr results::ImageSize full{80, 60}, lowered{48, 36};
 
 class Paced : public testing::Test {
  protected:
@@ -35,7 +35,7 @@ class Paced : public testing::Test {
         viewer_->keepsPace = true;
         viewer_->drawShare = 0.6;
     }
-    [[nodiscard]] ImageSize drawn() const { return viewer_->session().drawnSize(); }
+    [[nodiscard]] results::ImageSize drawn() const { return viewer_->session().drawnSize(); }
     [[nodiscard]] pictures::Image shown() const { return draw::readBack(viewer_->image()); }
 
     /// A lowered picture, bilinear at the centre of pixel (x, y) of the full one.
@@ -138,7 +138,7 @@ TEST_F(Paced, WhatIsJudgedSavedOrStatedIsOfTheFullSize) {
         }
     EXPECT_THAT(line, HasSubstr("--size 80x60"));
     EXPECT_THAT(viewer_->line(Half::a), HasSubstr("--size 80x60"));
-    for (const PlannedRun& run : measurementOf(viewer_->state()).cells) EXPECT_EQ(run.spec.size, full);
+    for (const suite::PlannedRun& run : measurementOf(viewer_->state()).cells) EXPECT_EQ(run.spec.size, full);
 }
 
 TEST_F(Paced, TheExactPictureStandsBesideAFullOne) {
@@ -261,4 +261,4 @@ TEST_F(Paced, ADroppedFileIsReadWithinTheLimits) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -9,21 +9,21 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/draw/read_back.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 constexpr float minimumPixels = 8;  ///< minimum width and height of the visible part
 
 std::string nameOf(const ViewState& state, Half half) {
-    return fmt::format("{} {}", half == Half::a ? "A" : "B", bench::half(state, half).method);
+    return fmt::format("{} {}", half == Half::a ? "A" : "B", view::half(state, half).method);
 }
 
 /// Every format that can store the volume; all of them if none can.
-std::vector<std::string> formatsOf(const CollectedVolume& volume) {
+std::vector<std::string> formatsOf(const exports::CollectedVolume& volume) {
     std::vector<std::string> all, possible;
-    for (const Exporter& exporter : exporters()) {
+    for (const exports::Exporter& exporter : exports::exporters()) {
         all.push_back(exporter.id);
-        if (whyNotWritable(volume, exporter.id).empty()) possible.push_back(exporter.id);
+        if (exports::whyNotWritable(volume, exporter.id).empty()) possible.push_back(exporter.id);
     }
     return possible.empty() ? all : possible;
 }
@@ -38,7 +38,7 @@ std::vector<std::string> configurationShown(ViewState state) {
     const std::string drive = state.drive;
     const bool byKeys = drive == keyboardDrive;  // no run can repeat that
     if (byKeys) state.drive.clear();
-    std::vector<std::string> lines = configurationOf(runOf(state, Half::a));
+    std::vector<std::string> lines = results::configurationOf(runOf(state, Half::a));
     if (byKeys) lines.push_back("drive=" + drive);
     return lines;
 }
@@ -46,7 +46,7 @@ std::vector<std::string> configurationShown(ViewState state) {
 }  // namespace
 
 void Viewer::makeImage(Shown shown) {
-    ImageSize size = session_.state().size;
+    results::ImageSize size = session_.state().size;
     if (shown == Shown::sideBySide) size.width *= 2;
     if (image_.width() == size.width && image_.height() == size.height) return;
     image_ = gpu::Texture::make2D(device_, "view", gpu::Format::rgba8, size.width, size.height);
@@ -55,7 +55,7 @@ void Viewer::makeImage(Shown shown) {
 
 bool Viewer::draw() {
     const bool lacksExact = session_.isExact(Half::b) && !session_.isEvaluated() && paused;
-    const ImageSize size = sizeNow();
+    const results::ImageSize size = sizeNow();
     const bool isAsked =
         mustDraw_ || exactAsked_ || lacksExact || !(settingsNow() == composed_) || !(size == session_.drawnSize());
     const bool isDone = keepsPace && drawShare < 1 && nothingMoves();
@@ -75,8 +75,8 @@ bool Viewer::isPaced() const {
     return keepsPace && !isMap && !isExact && !drawingPaused;
 }
 
-ImageSize Viewer::sizeNow() const {
-    const ImageSize full = session_.state().size;
+results::ImageSize Viewer::sizeNow() const {
+    const results::ImageSize full = session_.state().size;
     return isPaced() && !nothingMoves() ? shareOf(full, drawShare) : full;
 }
 
@@ -87,7 +87,7 @@ void Viewer::drawAtFullSize() {
 }
 
 std::string Viewer::drawnRemark() const {
-    const ImageSize drawn = session_.drawnSize(), full = session_.state().size;
+    const results::ImageSize drawn = session_.drawnSize(), full = session_.state().size;
     if (drawn == full) return "";
     return fmt::format("drawn at {}x{} of {}x{} to keep {} frames per second", drawn.width, drawn.height, full.width,
                        full.height, pacedFramesPerSecond);
@@ -149,7 +149,7 @@ std::string Viewer::stampOf(const SplitSettings& settings) const {
 
 PixelValue Viewer::valueAt(glm::vec2 place) {
     const SplitSettings settings = settingsNow();
-    const ImageSize size = session_.state().size;
+    const results::ImageSize size = session_.state().size;
     glm::vec2 at(place.x, 1 - place.y);
     bool isB = settings.shown == Shown::b || (settings.shown == Shown::wipe && at.x >= settings.divider);
     if (settings.shown == Shown::sideBySide) {
@@ -173,7 +173,7 @@ PixelValue Viewer::valueAt(glm::vec2 place) {
 
 /// `pixel` counts from the lower left corner.
 glm::vec3 Viewer::onePixel(Half half, glm::ivec2 pixel, const SplitSettings& settings) {
-    const ImageSize size = session_.state().size;
+    const results::ImageSize size = session_.state().size;
     SplitSettings one = settings;
     one.shown = Shown::a;
     one.extent = 1.0f / glm::vec2(size.width, size.height);
@@ -184,7 +184,7 @@ glm::vec3 Viewer::onePixel(Half half, glm::ivec2 pixel, const SplitSettings& set
 }
 
 void Viewer::zoom(glm::vec2 place, double factor) {
-    const ImageSize size = session_.state().size;
+    const results::ImageSize size = session_.state().size;
     const glm::vec2 at(split.shown == Shown::sideBySide ? glm::fract(2 * place.x) : place.x, 1 - place.y);
     const glm::vec2 minimum = glm::min(minimumPixels / glm::vec2(size.width, size.height), glm::vec2(1));
     const glm::vec2 fixed = split.origin + split.extent * at;
@@ -214,7 +214,7 @@ std::string Viewer::frameName() const {
 
 void Viewer::save(const std::string& name, const std::string& text) {
     std::filesystem::create_directories(folder_);
-    writeWhole(folder_ / name, text);
+    exports::writeWhole(folder_ / name, text);
     message_ = "saved: " + (folder_ / name).string();
 }
 
@@ -243,21 +243,21 @@ pictures::Image Viewer::lightOfImage() {
 }
 
 void Viewer::saveVolume() {
-    CollectedVolume volume;
+    exports::CollectedVolume volume;
     session_.volume(Half::a, volume);
     const ViewState state = session_.state();
-    VolumeSettings settings;
+    exports::VolumeSettings settings;
     settings.frames = {session_.frame(), session_.frame(), 1};
     settings.formats = formatsOf(volume);
-    requireWritable(volume, settings.formats, state.a.method);
+    exports::requireWritable(volume, settings.formats, state.a.method);
     const std::filesystem::path folder = folder_ / "volumes" / fmt::format("f{:06}", session_.frame());
     std::filesystem::create_directories(folder.parent_path());
-    VolumeExporter exporter(settings, folder);
-    const World& world = session_.world();
+    exports::VolumeExporter exporter(settings, folder);
+    const world::World& world = session_.world();
     const std::vector<std::string> configuration = configurationShown(state);
     exporter.write(
         {session_.frame(), state.a.method, volume, world.scene(), world.state(), world.dust(), configuration});
-    message_ = fmt::format("saved: {} ({})", folder.string(), formatsText(settings.formats));
+    message_ = fmt::format("saved: {} ({})", folder.string(), exports::formatsText(settings.formats));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

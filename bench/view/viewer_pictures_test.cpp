@@ -15,7 +15,7 @@
 #include "methods/kit/draw/read_back.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 using ::testing::HasSubstr;
@@ -74,17 +74,17 @@ TEST_F(ViewerPictures, FlipIsThatOfTheMetric) {
     viewer_->advance();
     EXPECT_EQ(viewer_->maps().flipMean(), 0.0);
     for (const glm::vec4& pixel : shown().pixels)
-        ASSERT_NEAR(pixel.r, pictures::encodeSrgb(heatColour(0).r), nearColour);
+        ASSERT_NEAR(pixel.r, pictures::encodeSrgb(measure::heatColour(0).r), nearColour);
     if (!hasMethod("billboard") || !hasMethod("octree_search")) GTEST_SKIP() << "one of the methods is missing";
     open("billboard", "octree_search");
     viewer_->split.shown = Shown::flip;
     viewer_->advance();
-    const Measured expected = flip(preparePicture(viewer_->session().image(Half::b), "b"),
-                                   preparePicture(viewer_->session().image(Half::a), "a"));
+    const measure::Measured expected = measure::flip(measure::preparePicture(viewer_->session().image(Half::b), "b"),
+                                                     measure::preparePicture(viewer_->session().image(Half::a), "a"));
     ASSERT_TRUE(viewer_->maps().flipMean());
     EXPECT_EQ(*viewer_->maps().flipMean(), *expected.value);
     EXPECT_GT(*expected.value, 1e-3);
-    const pictures::Image colours = heatMap(expected.map), image = shown();
+    const pictures::Image colours = measure::heatMap(expected.map), image = shown();
     for (std::size_t i = 0; i < image.pixels.size(); ++i)
         for (int channel = 0; channel < 3; ++channel)
             ASSERT_NEAR(image.pixels[i][channel], pictures::encodeSrgb(colours.pixels[i][channel]), nearColour);
@@ -101,16 +101,18 @@ TEST_F(ViewerPictures, OverdrawCountsThePrimitivesOverEachPixel) {
     open("billboard", "");
     viewer_->split.channel = Channel::overdraw;
     viewer_->advance();
-    CollectedVolume dust;
+    exports::CollectedVolume dust;
     dust.puffs(viewer_->session().world().dust());
-    const Plane map = overdrawMap(primitivesOnScreen(dust, viewer_->session().view()), 64, 48);
+    const measure::Plane map =
+        measure::overdrawMap(reference::primitivesOnScreen(dust, viewer_->session().view()), 64, 48);
     const float maximum = std::ranges::max(map.values);
     ASSERT_GT(maximum, 3);
     EXPECT_EQ(viewer_->maps().overdrawLimit(), static_cast<double>(maximum));
     const pictures::Image image = shown();
     for (int y = 0; y < 48; ++y)
         for (int x = 0; x < 64; ++x)
-            ASSERT_NEAR(image.at(x, y).g, pictures::encodeSrgb(heatColour(map.at(x, y) / maximum).g), nearColour);
+            ASSERT_NEAR(image.at(x, y).g, pictures::encodeSrgb(measure::heatColour(map.at(x, y) / maximum).g),
+                        nearColour);
 }
 
 TEST_F(ViewerPictures, FaultsAreCountedWithTheFirst) {
@@ -202,4 +204,4 @@ TEST_F(ViewerPictures, KeysGoThroughAllViewsAndChannels) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -14,7 +14,7 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 using ::testing::HasSubstr;
@@ -194,7 +194,7 @@ TEST_F(ViewerTest, CostsAreThoseOfWhatAFrameDid) {
     Viewer viewer(state, device_, saved());
     viewer.advance(1e9);
     EXPECT_TRUE(viewer.costs().empty());  // the preroll
-    const std::int64_t start = steadyNow();
+    const std::int64_t start = measure::steadyNow();
     for (int n = 0; n < 4; ++n) viewer.advance();
     ASSERT_EQ(viewer.costs().size(), 4u);
     double whole = 0;
@@ -206,7 +206,7 @@ TEST_F(ViewerTest, CostsAreThoseOfWhatAFrameDid) {
         }
         whole += frame.methodsMs() + frame.window;
     }
-    EXPECT_LE(whole, static_cast<double>(steadyNow() - start) / 1e6);
+    EXPECT_LE(whole, static_cast<double>(measure::steadyNow() - start) / 1e6);
     EXPECT_EQ(viewer.costs().back().window, 0);  // has not ended yet
     for (std::size_t n = 0; n < 3; ++n) EXPECT_GT(viewer.costs()[n].window, 0) << n;
     viewer.paused = true;
@@ -271,10 +271,10 @@ TEST_F(ViewerTest, ACameraPathOfKeysIsSavedAndFollowed) {
         for (int n = 0; n < 10; ++n) viewer.advance();
     }
     viewer.press(Key::k, true);
-    const CameraPath path = CameraPath::parseFile(saved() / "camera_path.csv");
+    const world::CameraPath path = world::CameraPath::parseFile(saved() / "camera_path.csv");
     ASSERT_EQ(path.keys().size(), 3u);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(glm::distance(path.keys()[i].eye, eyes[i]), 1e-9);
-    EXPECT_NEAR(path.keys()[2].seconds - path.keys()[1].seconds, 10 * stepSeconds, 1e-9);
+    EXPECT_NEAR(path.keys()[2].seconds - path.keys()[1].seconds, 10 * world::stepSeconds, 1e-9);
 }
 
 TEST_F(ViewerTest, TakesLinesAndTomlAndSaysWhatIsWrong) {
@@ -358,4 +358,4 @@ TEST_F(ViewerTest, SavesTheVolumeOfTheMoment) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -12,7 +12,7 @@
 #include "methods/kit/files/toml_reader.h"
 #include "methods/kit/files/toml_text.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 const std::vector<std::string> keys{"text_scale", "size", "shown", "divider", "panels", "keep_pace"};
@@ -22,9 +22,9 @@ std::string valueOf(const char* variable) {
     return value ? value : "";
 }
 
-ImageSize sizeOf(const files::TomlReader& table, const std::string& text) {
+results::ImageSize sizeOf(const files::TomlReader& table, const std::string& text) {
     try {
-        return parseSize(text);
+        return results::parseSize(text);
     } catch (const InputError& error) {
         throw InputError(table.where("size") + error.what());
     }
@@ -96,7 +96,7 @@ void SettingsKeeper::finish() {
     std::error_code error;
     std::filesystem::create_directories(file_.parent_path(), error);
     if (error) files::failWriting(file_.parent_path(), error.value());
-    writeWhole(file_, toToml(now_));
+    exports::writeWhole(file_, toToml(now_));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -9,13 +9,13 @@
 #include "bench/results/run_spec.h"
 #include "bench/view/split_view.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 inline constexpr double minimumTextScale = 0.5, maximumTextScale = 4;
 
 struct WindowSettings {
-    double textScale = 1;       ///< in addition to the display's scale
-    ImageSize size{1280, 720};  ///< of the window, in the display's units
+    double textScale = 1;                ///< in addition to the display's scale
+    results::ImageSize size{1280, 720};  ///< of the window, in the display's units
     Shown shown = Shown::wipe;
     float divider = 0.5f;
     bool showsPanels = true;
@@ -60,4 +60,4 @@ class SettingsKeeper {
     int calls_ = 0;  ///< number of calls with the settings `now_`
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

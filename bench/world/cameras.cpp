@@ -9,7 +9,7 @@
 #include "methods/kit/files/csv.h"
 #include "methods/kit/files/data_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 /// Minimum height of a camera above the ground.
@@ -224,4 +224,4 @@ std::string CameraPath::rows() const {
     return text;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

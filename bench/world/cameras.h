@@ -14,7 +14,7 @@
 #include "methods/contract/scene.h"
 #include "methods/contract/view.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 enum class CameraKind { chase, fixed, orbit, wheel };
 inline constexpr Choices<CameraKind> cameraKinds{{"chase", CameraKind::chase},
@@ -111,4 +111,4 @@ class CameraPath {
 /// True if read() treats this text as a file.
 [[nodiscard]] bool isCameraFile(std::string_view fileOrRows);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

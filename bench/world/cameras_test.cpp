@@ -10,7 +10,7 @@
 #include "bench/world/vehicle_dynamics.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 void expectNearly(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-9) {
@@ -184,5 +184,4 @@ TEST(CameraPath, SaysWhatIsWrongWithItsInput) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

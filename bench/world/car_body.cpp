@@ -9,7 +9,7 @@
 #include "bench/world/car_model.h"
 #include "bench/world/surface_builder.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 using glm::vec2;
@@ -376,4 +376,4 @@ scene::Mesh carBody(const scene::VehicleParameters& parameters, const CarColours
     return builder.finish();
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

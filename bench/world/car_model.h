@@ -8,7 +8,7 @@
 
 #include "methods/contract/scene.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 struct CarColours {
     glm::vec3 paint{0.035f, 0.13f, 0.42f};
@@ -18,4 +18,4 @@ struct CarColours {
 [[nodiscard]] scene::Mesh carBody(const scene::VehicleParameters& parameters, const CarColours& colours);
 [[nodiscard]] scene::Mesh carWheel(const scene::VehicleParameters& parameters);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

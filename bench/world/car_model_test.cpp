@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 void expectSound(const scene::Mesh& mesh) {
@@ -76,4 +76,4 @@ TEST(CarModel, WheelShowsItsRimOutside) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

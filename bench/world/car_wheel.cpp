@@ -6,7 +6,7 @@
 #include "bench/world/car_model.h"
 #include "bench/world/surface_builder.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 using glm::vec3;
@@ -70,4 +70,4 @@ scene::Mesh carWheel(const scene::VehicleParameters& parameters) {
     return builder.finish();
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -8,7 +8,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 /// Maximum target speed in a drive; catches values given in km/h or mm/s.
@@ -156,4 +156,4 @@ std::string ControlRecording::csv() const {
     return text;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -15,7 +15,7 @@
 #include "bench/world/vehicle_dynamics.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 /// Decides the controls of each step.
 class ControlSource {
@@ -138,4 +138,4 @@ class ControlRecording {
     std::vector<Controls> steps_;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -10,7 +10,7 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 using ::testing::HasSubstr;
@@ -329,5 +329,4 @@ TEST(KeyboardControls, ARecordingPlayedAgainIsTheSameDrive) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -4,7 +4,7 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/toml_reader.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 /// The result of `read`, or the reason why it failed: a broken file must not hide the others.
@@ -45,4 +45,4 @@ std::vector<DataEntry> listDrives() {
     return entries;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

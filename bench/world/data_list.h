@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 struct DataEntry {
     std::string id;
@@ -18,4 +18,4 @@ struct DataEntry {
 /// Sorted by id; the descriptions are in data/drives/drives.toml.
 [[nodiscard]] std::vector<DataEntry> listDrives();
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

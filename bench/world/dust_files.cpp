@@ -18,7 +18,7 @@
 #include "methods/kit/volumes/volume_series.h"
 #include "methods/kit/volumes/vtp_file.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 namespace fs = std::filesystem;
 namespace {
@@ -301,4 +301,4 @@ std::vector<DustMoment> dustOfVolume(const volumes::VolumeSeries& series, const 
     return moments;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -23,7 +23,7 @@
 #include "bench/world/dust_moment.h"
 #include "methods/kit/volumes/volume_series.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 struct DustFiles {
     std::vector<DustMoment> moments;           ///< in the order of the series
@@ -47,4 +47,4 @@ inline constexpr double puffDeviationCells = 0.7;
 [[nodiscard]] std::vector<DustMoment> dustOfVolume(const volumes::VolumeSeries& series,
                                                    const volumes::VolumeSetup& setup);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

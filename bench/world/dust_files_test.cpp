@@ -11,7 +11,7 @@
 #include "methods/kit/maths/transmittance.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 using testing::HasSubstr;
@@ -179,5 +179,4 @@ TEST(VolumeDustFile, AVolumeIsDustAndItsSetupToo) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -15,7 +15,7 @@
 #include "methods/kit/files/toml_reader.h"
 #include "methods/kit/maths/srgb.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 struct Quantity {
@@ -365,4 +365,4 @@ DustMoment dustMoment(const volumes::PointTable& table, const DustColumns& colum
     return moment;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -15,7 +15,7 @@
 
 #include "methods/kit/volumes/point_table.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 /// The numbers of one quantity: a column for each component, or one number for all.
 struct ColumnNumbers {
@@ -78,4 +78,4 @@ struct DustMoment {
 [[nodiscard]] DustMoment dustMoment(const volumes::PointTable& table, const DustColumns& columns,
                                     const std::string& file);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -11,7 +11,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/printable.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 using Store = particles::ParticleStore;
@@ -190,4 +190,4 @@ void DustSeries::show(double seconds, Store& store) const {
     blend(from.blue, &DustMoment::blue, stays(from.blue), store.blue);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -15,7 +15,7 @@
 #include "bench/world/dust_moment.h"
 #include "methods/kit/particles/particle_store.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 /// Times closer than this are the same moment: files round their times.
 inline constexpr double sameMomentSeconds = 1e-5;
@@ -57,4 +57,4 @@ class DustSeries {
     std::size_t births_ = 0, deaths_ = 0;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -8,7 +8,7 @@
 #include "methods/kit/maths/srgb.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 using testing::ElementsAre;
@@ -212,4 +212,4 @@ TEST_F(DustIndex, DamagedOnesAreRefused) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

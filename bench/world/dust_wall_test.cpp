@@ -18,7 +18,7 @@
 #include "methods/kit/testing/python_script.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 using testing::ElementsAreArray;
@@ -195,4 +195,4 @@ TEST(DustWall, TablesThatMeanSomethingElseAreRefusedByTheirReason) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 struct GivenDust {
     std::string file;     ///< empty: the scene's own dust
@@ -15,4 +15,4 @@ struct GivenDust {
     std::int64_t frames = 0;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

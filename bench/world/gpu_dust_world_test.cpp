@@ -9,7 +9,7 @@
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/device.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 gpu::Device& deviceOfDust() {
@@ -93,4 +93,4 @@ TEST(GpuDustWorld, IsRefusedWithTheNameOfWhatHasNoShader) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

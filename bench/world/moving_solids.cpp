@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 constexpr std::size_t firstAngle = 3, firstWeight = 6;
@@ -143,4 +143,4 @@ std::size_t MovingSolids::bytes() const {
     return bytes;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

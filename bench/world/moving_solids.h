@@ -11,7 +11,7 @@
 #include "methods/contract/solid.h"
 #include "methods/kit/meshes/mesh_file.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 struct SolidKey {
     double seconds = 0;
@@ -78,4 +78,4 @@ class MovingSolids {
     std::vector<Moving> all_;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 constexpr double circle = 2 * std::numbers::pi;
@@ -143,5 +143,4 @@ TEST(SolidPath, RefusesWhatIsNoPath) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -16,7 +16,7 @@
 #include "methods/kit/files/toml_reader.h"
 #include "methods/kit/pictures/picture_files.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 constexpr double far = 1e5;        // metres: the maximum coordinate in a file
@@ -242,4 +242,4 @@ ReliefFile readRelief(const std::filesystem::path& file) {
     return result;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -10,7 +10,7 @@
 #include "methods/contract/scene.h"
 #include "methods/kit/files/toml_reader.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 /// Reads one table. Panels with the same relief share it; `files` gets the relief's files. Throws InputError with file,
 /// line and what was expected, also for a panel of the world that extends into the ground or another panel of `scene`.
@@ -30,4 +30,4 @@ struct ReliefFile {
 /// Throws InputError with the file and what was expected.
 [[nodiscard]] ReliefFile readRelief(const std::filesystem::path& file);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -10,7 +10,7 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 using ::testing::AllOf;
@@ -169,5 +169,4 @@ TEST(Panels, OverlapIsThatOfTheirPoints) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

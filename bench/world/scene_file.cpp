@@ -25,7 +25,7 @@
 #include "methods/kit/meshes/mesh_file.h"
 #include "methods/kit/pictures/picture_files.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 using files::TomlReader;
@@ -364,4 +364,4 @@ scene::Terrain readHeightImage(const std::filesystem::path& file, double spacing
             firstOf(image.width), firstOf(image.height)};
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -13,7 +13,7 @@
 #include "methods/contract/scene.h"
 #include "methods/contract/terrain.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 /// Position and heading of the vehicle at the start of the drive.
 struct Start {
@@ -50,4 +50,4 @@ struct SceneFile {
 [[nodiscard]] scene::Terrain readHeightImage(const std::filesystem::path& file, double spacingMetres,
                                              double heightMetres, double baseMetres);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -13,7 +13,7 @@
 #include "methods/kit/testing/test_folder.h"
 #include "methods/kit/testing/test_input_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 using ::testing::HasSubstr;
@@ -358,5 +358,4 @@ TEST(DataList, DescribesEverySceneAndDrive) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

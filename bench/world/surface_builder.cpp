@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 /// ∂P/∂u × ∂P/∂v, by differences within the range of the lines.
@@ -144,4 +144,4 @@ void SurfaceBuilder::mirror(std::size_t firstVertex, std::size_t firstIndex) {
             mesh_.indices.push_back(std::uint32_t{mesh_.indices[corner] + shift});
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -10,7 +10,7 @@
 
 #include "methods/contract/solid.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 class SurfaceBuilder {
  public:
@@ -50,4 +50,4 @@ class SurfaceBuilder {
 /// Evenly spaced values from `first` to `last`.
 [[nodiscard]] std::vector<float> lines(float first, float last, int cells);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

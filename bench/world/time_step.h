@@ -1,8 +1,8 @@
 // The fixed time step of every simulation.
 #pragma once
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 inline constexpr double stepSeconds = 1.0 / 60;
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

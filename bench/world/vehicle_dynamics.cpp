@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 using scene::Terrain;
@@ -162,4 +162,4 @@ VehicleState step(const VehicleParameters& p, const VehicleState& state, const C
     return next;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -8,7 +8,7 @@
 #include "methods/contract/terrain.h"
 #include "methods/contract/vehicle.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 inline constexpr double gravity = 9.80665;   ///< m/s²
 inline constexpr double airDensity = 1.204;  ///< kg/m³ at 20 °C and 1013 hPa
@@ -42,4 +42,4 @@ struct Controls {
 [[nodiscard]] scene::VehicleState step(const scene::VehicleParameters& parameters, const scene::VehicleState& state,
                                        const Controls& controls, const scene::Terrain& terrain, double dt);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 using scene::Terrain;
@@ -198,4 +198,4 @@ TEST(VehicleDynamics, PutsLeftWheelsToTheLeft) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -22,7 +22,7 @@
 #include "methods/kit/particles/part_list.h"
 #include "methods/kit/particles/particle_system.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 using scene::SceneState;
@@ -339,7 +339,7 @@ void World::readInput() {
 
 void World::simulate() {
     State& s = *state_;
-    s.now.vehicle = bench::step(s.vehicle(), s.now.vehicle, s.controls, s.file.scene.terrain, stepSeconds);
+    s.now.vehicle = world::step(s.vehicle(), s.now.vehicle, s.controls, s.file.scene.terrain, stepSeconds);
     ++s.stepIndex;
     s.placeInTime();
     s.lag = s.lag.followed(s.now.vehicle, s.file.cameras.chase.smoothingSeconds, stepSeconds);
@@ -374,4 +374,4 @@ MemoryReport World::memory() const {
     return report;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -24,7 +24,7 @@ namespace dustbench::gpu {
 class Device;
 }  // namespace dustbench::gpu
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 struct SceneFile;
 
@@ -113,4 +113,4 @@ class World {
     std::unique_ptr<State> state_;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

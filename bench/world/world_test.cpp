@@ -12,7 +12,7 @@
 #include "methods/kit/maths/transmittance.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 using ::testing::HasSubstr;
@@ -339,4 +339,4 @@ TEST(World, DrivesByPedalsFromRest) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -1,11 +1,12 @@
 // Tests light through a cloud of several grids, and that the border between a fluid's box and its trail is invisible.
+#include "methods/grid_fluid/trail_picture.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "methods/grid_fluid/trail_picture.h"
 #include "methods/kit/draw/test_canvas.h"
 #include "methods/kit/raycast/light_volume.h"
 

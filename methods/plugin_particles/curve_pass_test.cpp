@@ -1,3 +1,5 @@
+#include "methods/plugin_particles/curve_pass.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,7 +10,6 @@
 #include "methods/kit/particles/part_toml.h"
 #include "methods/kit/particles/particle_system.h"
 #include "methods/kit/testing/test_moment.h"
-#include "methods/plugin_particles/curve_pass.h"
 #include "methods/plugin_particles/system_picture.h"
 
 namespace dustbench::plugin_particles {

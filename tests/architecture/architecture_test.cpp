@@ -64,6 +64,10 @@ TEST(Architecture, IncludesPointOneWay) {
     EXPECT_EQ(faultsOfAll(includeFaults), "");
 }
 
+TEST(Architecture, EachModuleOfTheHarnessHasItsNamespace) {
+    EXPECT_EQ(faultsOfAll(namespaceFaults), "");
+}
+
 TEST(Architecture, TheContractIsAShortReadAndNeedsNothingOfOurs) {
     EXPECT_EQ(faultsOfAll(contractFaults), "");
     const auto isHeader = [](const SourceFile& file) {

@@ -36,16 +36,27 @@ std::string territoryOf(const std::string& path) {
 }
 
 /// The modules of bench/: each may use those before it.
-constexpr std::array<std::string_view, 12> benchRooms{"world",  "measure", "export", "reference", "results",   "suite",
-                                                      "claims", "run",     "view",   "report",    "recommend", "cli"};
+constexpr std::array<std::string_view, 13> benchModules{"world",  "measure",   "export", "reference", "results",
+                                                        "suite",  "claims",    "run",    "selfcheck", "view",
+                                                        "report", "recommend", "cli"};
 
-/// The position of a module of bench/ in that order; nothing for other files.
-std::optional<std::size_t> roomOf(const std::string& path) {
-    if (!path.starts_with("bench/")) return std::nullopt;
-    const std::string rest = path.substr(6);
-    const auto room = std::ranges::find(benchRooms, std::string_view(rest).substr(0, rest.find('/')));
-    if (room == benchRooms.end()) return std::nullopt;
-    return static_cast<std::size_t>(room - benchRooms.begin());
+/// `run` of `bench/run/a.h`; nothing for files outside the folders of bench/.
+std::optional<std::string> benchFolder(const std::string& path) {
+    if (!path.starts_with("bench/") || path.find('/', 6) == std::string::npos) return std::nullopt;
+    return path.substr(6, path.find('/', 6) - 6);
+}
+
+/// The position of a file's module in that order; nothing for other files.
+std::optional<std::size_t> positionInBench(const std::string& path) {
+    const auto folder = benchFolder(path);
+    const auto module = folder ? std::ranges::find(benchModules, *folder) : benchModules.end();
+    if (module == benchModules.end()) return std::nullopt;
+    return static_cast<std::size_t>(module - benchModules.begin());
+}
+
+/// `export` is a keyword of C++.
+std::string namespaceOf(std::string_view benchModule) {
+    return "dustbench::" + std::string(benchModule == "export" ? "exports" : benchModule);
 }
 
 bool mayInclude(const std::string& from, const std::string& to) {
@@ -138,9 +149,29 @@ Faults includeFaults(const SourceFile& file) {
             continue;
         } else if (!mayInclude(territoryOf(file.path), territoryOf(target))) {
             faults.push_back(fault(file, i, "must not include '" + target + "'"));
-        } else if (roomOf(target) > roomOf(file.path) && roomOf(file.path)) {
+        } else if (positionInBench(target) > positionInBench(file.path) && positionInBench(file.path)) {
             faults.push_back(fault(file, i, "must not include '" + target + "', which depends on it"));
         }
+    }
+    return faults;
+}
+
+Faults namespaceFaults(const SourceFile& file) {
+    const auto folder = benchFolder(file.path);
+    if (!folder || !isCxx(file)) return {};
+    if (!positionInBench(file.path))
+        return {fault(file, 0, "bench/" + *folder + " has no place in the order of modules (source_rules.cpp)")};
+    static const std::regex named(R"re(^namespace (dustbench(::\w+)?))re");
+    const std::string own = namespaceOf(*folder);
+    Faults faults;
+    const auto lines = linesOf(file.text);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        std::smatch match;
+        if (!std::regex_search(lines[i], match, named) || match[1] == own) continue;
+        const bool isOfBench =
+            std::ranges::any_of(benchModules, [&](std::string_view each) { return match[1] == namespaceOf(each); });
+        if (isOfBench || match[1] == "dustbench")
+            faults.push_back(fault(file, i, "got namespace " + match.str(1) + ", expected " + own));
     }
     return faults;
 }

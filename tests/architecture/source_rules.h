@@ -21,6 +21,10 @@ using Faults = std::vector<std::string>;
 /// to earlier ones. No include path contains `..`.
 [[nodiscard]] Faults includeFaults(const SourceFile& file);
 
+/// A file of a module of bench/ has the module's namespace: `dustbench::run` in bench/run, `dustbench::exports` in
+/// bench/export. A folder of bench/ has a place in the order of modules.
+[[nodiscard]] Faults namespaceFaults(const SourceFile& file);
+
 /// A header of methods/contract includes only the standard library, GLM and other headers of the contract.
 [[nodiscard]] Faults contractFaults(const SourceFile& file);
 

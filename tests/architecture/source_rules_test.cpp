@@ -68,6 +68,21 @@ TEST(SourceRules, LetTheHarnessKnowMethodsThroughTheRegistryAlone) {
     EXPECT_THAT(includesOf("bench/results/a.cpp", "bench/suite/suite.h"), SizeIs(1));
 }
 
+TEST(SourceRules, GiveEachModuleOfTheHarnessItsNamespace) {
+    const auto faults = [](const std::string& path, const std::string& space) {
+        return namespaceFaults({path, "namespace " + space + " {\nint a;\n}  // namespace " + space + "\n"});
+    };
+    EXPECT_THAT(faults("bench/run/a.cpp", "dustbench::run"), IsEmpty());
+    EXPECT_THAT(faults("bench/export/a_test.cpp", "dustbench::exports::vdb"), IsEmpty());
+    EXPECT_THAT(faults("bench/view/panels/a.h", "dustbench::view"), IsEmpty());
+    EXPECT_THAT(faults("bench/run/a.h", "dustbench::gpu"), IsEmpty()) << "declares a type of the kit";
+    EXPECT_THAT(faults("methods/relief/a.h", "dustbench::run"), IsEmpty());
+    EXPECT_THAT(faults("bench/run/a.cpp", "dustbench::suite"),
+                ElementsAre("bench/run/a.cpp:1: got namespace dustbench::suite, expected dustbench::run"));
+    EXPECT_THAT(faults("bench/run/a.cpp", "dustbench"), SizeIs(1));
+    EXPECT_THAT(faults("bench/attic/a.cpp", "dustbench::attic"), SizeIs(1));
+}
+
 TEST(SourceRules, KeepTheContractFreeOfAllButTheStandardLibraryAndGlm) {
     const auto faults = [](const std::string& line) {
         return contractFaults({"methods/contract/a.h", "// Sorts.\n#include " + line + "\n"});

@@ -72,10 +72,10 @@ double difference(const Case& one, bool oneColour, std::vector<std::pair<std::st
     std::vector<float> depth;  // from the top
     for (int y = one.height - 1; y >= 0; --y)
         depth.insert(depth.end(), rows.begin() + y * one.width, rows.begin() + (y + 1) * one.width);
-    bench::ReferenceOptions options;
+    reference::ReferenceOptions options;
     options.slabMetres = 0.05;
-    const bench::CloudImage exact =
-        bench::renderParticles(dust.dust, dust.view, bench::distancesFromDepth(dust.view, depth), options);
+    const reference::CloudImage exact =
+        reference::renderParticles(dust.dust, dust.view, reference::distancesFromDepth(dust.view, depth), options);
     double largest = 0, alpha = 0;
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         alpha = std::max(alpha, static_cast<double>(image.pixels[i].a));

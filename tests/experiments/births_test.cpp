@@ -8,7 +8,7 @@ namespace dustbench::voxel_shape::births {
 namespace {
 
 TEST(BirthExperiment, FindsNoneInSolidsThatTheMethodKnowsAndManyInThoseItDoesNot) {
-    bench::ProgramContext context(1);
+    claims::ProgramContext context(1);
     const BirthReport known = driveThroughWalls(context, true, 3.5), unknown = driveThroughWalls(context, false, 3.5);
     EXPECT_EQ(known.inSolids, 0);
     EXPECT_GT(known.births, 100'000);

@@ -143,25 +143,25 @@ TEST(Fuzz, Pictures) {
         expectSound(name, bytesOf(folder.path() / name), readPicture);
     }
     expectSound("a.pgm", "P5\n3 2\n255\nabcdef",
-                [](const fs::path& file) { (void)bench::readHeightImage(file, 1, 1, 0); });
+                [](const fs::path& file) { (void)world::readHeightImage(file, 1, 1, 0); });
 }
 
 TEST(Fuzz, Results) {
-    bench::RunRecord record;
+    results::RunRecord record;
     record.spec.method = "haze";
-    record.summary = bench::identityColumns(record, 2);
+    record.summary = results::identityColumns(record, 2);
     record.summary.emplace_back("frame_ms_median", 12.5);
     record.provenance.warnings = {"slow"};
-    expectSound("run.json", bench::toJson(record), [](const fs::path& file) { (void)bench::readRunFile(file); });
+    expectSound("run.json", results::toJson(record), [](const fs::path& file) { (void)results::readRunFile(file); });
 }
 
 TEST(Fuzz, ReportsOverDamagedFolders) {
     const TestFolder folder;
-    bench::RunRecord record;
+    results::RunRecord record;
     record.spec.method = "haze";
-    record.summary = bench::identityColumns(record, 2);
+    record.summary = results::identityColumns(record, 2);
     record.summary.emplace_back("frame_ms_median", 12.5);
-    const fs::path run = folder.path() / "runs" / bench::runId(record.spec);
+    const fs::path run = folder.path() / "runs" / results::runId(record.spec);
     fs::create_directories(run);
     const auto write = [](const fs::path& file, const std::string& text) {
         std::ofstream(file, std::ios::binary) << text;
@@ -169,35 +169,35 @@ TEST(Fuzz, ReportsOverDamagedFolders) {
     Mutation mutate(seed() + 28);
     const std::string frames = "frame,frame_ms\n0,1.5\n1,2.5\n", summary = "run_id,status,repetition\nx,done,1\n";
     for (int n = 0; n < std::max(cases() / 20, 1); ++n) {
-        write(run / "run.json", n % 2 == 0 ? bench::toJson(record) : mutate(bench::toJson(record)));
+        write(run / "run.json", n % 2 == 0 ? results::toJson(record) : mutate(results::toJson(record)));
         write(run / "frames.csv", mutate(frames));
         write(folder.path() / "summary.csv", mutate(summary));
-        const bench::ReportData data = bench::readReport(folder.path(), 1'000'000);
+        const report::ReportData data = report::readReport(folder.path(), 1'000'000);
         EXPECT_FALSE(data.runs.empty() && data.problems.empty());
-        EXPECT_NO_THROW((void)bench::writePage(folder.path(), data));
+        EXPECT_NO_THROW((void)report::writePage(folder.path(), data));
     }
 }
 
 TEST(Fuzz, Worlds) {
     expectSound("drive.csv", bytesOf(data("drives/slalom.csv")),
-                [](const fs::path& file) { (void)bench::Drive::parseFile(file); });
+                [](const fs::path& file) { (void)world::Drive::parseFile(file); });
     expectSound("camera.csv",
                 "time_s,eye_x,eye_y,eye_z,target_x,target_y,target_z,fov_deg\n0,1,2,3,4,5,6,50\n2,1,2,9,4,5,6,50\n",
-                [](const fs::path& file) { (void)bench::CameraPath::parseFile(file); });
+                [](const fs::path& file) { (void)world::CameraPath::parseFile(file); });
     expectSound("dust.toml", bytesOf(data("particles/fountain.toml")),
                 [](const fs::path& file) { (void)particles::systemsFromFile(file); });
     expectSound("scene.toml", bytesOf(data("scenes/plain.toml")),
-                [](const fs::path& file) { (void)bench::readScene(file); });
+                [](const fs::path& file) { (void)world::readScene(file); });
     // A relief names pictures in its folder.
     const TestFolder folder;
     fs::copy(data("reliefs"), folder.path(), fs::copy_options::recursive);
     expectSound(
-        "relief.toml", bytesOf(data("reliefs/sign.toml")), [](const fs::path& file) { (void)bench::readRelief(file); },
+        "relief.toml", bytesOf(data("reliefs/sign.toml")), [](const fs::path& file) { (void)world::readRelief(file); },
         folder.path());
 }
 
-bench::CollectedGrid smallGrid() {
-    bench::CollectedGrid grid;
+exports::CollectedGrid smallGrid() {
+    exports::CollectedGrid grid;
     grid.cells = {5, 4, 3};
     grid.originMetres = glm::dvec3(0);
     grid.spacingMetres = 0.25;
@@ -213,7 +213,7 @@ bench::CollectedGrid smallGrid() {
 TEST(Fuzz, Volumes) {
     const TestFolder folder;
     const auto read = [](const fs::path& file) { (void)volumes::readVectors(file, "velocity"); };
-    bench::writeGridVti(smallGrid(), 1, folder.path() / "blocks.vti");
+    exports::writeGridVti(smallGrid(), 1, folder.path() / "blocks.vti");
     expectSound("blocks.vti", bytesOf(folder.path() / "blocks.vti"), read);
     expectSound("whirl.vti", bytesOf(data("shapes/flow/whirl_0.vti")), read);
     expectSound(
@@ -262,17 +262,17 @@ TEST(Fuzz, Densities) {
 /// Each file is read in a separate process, which takes a while and may end in any way.
 TEST(Fuzz, VolumesOfOpenVdb) {
     const TestFolder folder;
-    bench::writeGridVdb(smallGrid(), 1, 1, folder.path() / "small.vdb");
+    exports::writeGridVdb(smallGrid(), 1, 1, folder.path() / "small.vdb");
     expectSound(
         "small.vdb", bytesOf(folder.path() / "small.vdb"),
         [](const fs::path& file) { (void)volumes::readVectors(file, "velocity"); }, fs::temp_directory_path(),
         std::max(cases() / 2, 1));
-    bench::CollectedGrid fog = smallGrid();
+    exports::CollectedGrid fog = smallGrid();
     fog.fields[0].name = "density";
     fog.fields[0].components = 1;
     fog.fields[0].values.resize(5 * 4 * 3);
     for (float& value : fog.fields[0].values) value = std::abs(value);
-    bench::writeGridVdb(fog, 1, 1, folder.path() / "fog.vdb");
+    exports::writeGridVdb(fog, 1, 1, folder.path() / "fog.vdb");
     writeNanoBall(folder.path() / "ball.nvdb");
     for (const char* name : {"fog.vdb", "ball.nvdb"})
         expectSound(name, bytesOf(folder.path() / name), readDensity, fs::temp_directory_path(),
@@ -288,7 +288,7 @@ TEST(Fuzz, VolumesOfOpenVdb) {
 /// An index is mutated in the folder of the file that it names.
 TEST(Fuzz, DustFromFiles) {
     const TestFolder folder;
-    const auto read = [](const fs::path& file) { (void)bench::DustSeries::read(file, ""); };
+    const auto read = [](const fs::path& file) { (void)world::DustSeries::read(file, ""); };
     const std::vector<float> numbers{0.25f, 0.5f, 0.75f};
     const std::vector<std::uint64_t> serials{3, 4, 9};
     Puffs dust;
@@ -296,7 +296,7 @@ TEST(Fuzz, DustFromFiles) {
     for (auto* column : {&dust.x, &dust.y, &dust.z, &dust.velocityX, &dust.velocityY, &dust.velocityZ, &dust.age,
                          &dust.lifetime, &dust.radius, &dust.opacity})
         *column = numbers;
-    bench::writeVtp(dust, 1.5, folder.path() / "one.vtp");
+    exports::writeVtp(dust, 1.5, folder.path() / "one.vtp");
     const std::string whole = bytesOf(folder.path() / "one.vtp");
     expectSound("dust.vtp", whole, read);
     expectSound("dust_text.vtp",
@@ -314,12 +314,12 @@ TEST(Fuzz, DustFromFiles) {
     expectSound("list.series", R"({"file-series-version": "1.0", "files": [{"name": "one.vtp", "time": 0}]})", read,
                 folder.path());
     expectSound("columns.toml", "position = [\"x\", \"y\", \"z\"]\nscale = 0.5\nradius = \"R\"\nup = \"z\"\n",
-                [](const fs::path& file) { (void)bench::DustColumns::parse(file.string()); });
+                [](const fs::path& file) { (void)world::DustColumns::parse(file.string()); });
 }
 
 TEST(Fuzz, Suites) {
     expectSound("suite.toml", bytesOf(data("suites/harness-same.toml")),
-                [](const fs::path& file) { (void)bench::planRuns(bench::loadSuite(file.string(), false)); });
+                [](const fs::path& file) { (void)suite::planRuns(suite::loadSuite(file.string(), false)); });
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ struct Shown {
 
 /// A shape after its 30th frame, seen from a fixed position in the shape's own frame.
 Shown shownAt(const std::string& shape, const std::string& speed, const std::string& preroll = "1.5") {
-    bench::ProgramContext context(1);
+    claims::ProgramContext context(1);
     const auto world =
         context.world("plain", {{"particles", "10"}, {"preroll", preroll}, {"speed", speed}}, width, height);
     const MethodInfo info = voxel_shape::describe();
@@ -44,10 +44,10 @@ Shown shownAt(const std::string& shape, const std::string& speed, const std::str
     return {method->primitives(), canvas.picture([&](gpu::Layer& layer) { method->draw(seen, layer); })};
 }
 
-bench::Picture over(const pictures::Image& layer, float grey) {
+measure::Picture over(const pictures::Image& layer, float grey) {
     pictures::Image ground = layer;
     std::ranges::fill(ground.pixels, glm::vec4(grey, grey, grey, 1));
-    return bench::preparePicture(pictures::over(layer, ground), "layer");
+    return measure::preparePicture(pictures::over(layer, ground), "layer");
 }
 
 void expectTheSameAtEverySpeed(const std::string& shape) {
@@ -60,7 +60,7 @@ void expectTheSameAtEverySpeed(const std::string& shape) {
         EXPECT_NEAR(ratio, 1, 0.01) << shape << " at " << speed << " m/s";
         testing::Test::RecordProperty(shape + "_primitives_at_" + speed, std::to_string(fast.primitives));
         for (const float grey : {0.0f, 0.2f, 1.0f}) {
-            const bench::Measured flip = bench::flip(over(slow.layer, grey), over(fast.layer, grey));
+            const measure::Measured flip = measure::flip(over(slow.layer, grey), over(fast.layer, grey));
             EXPECT_LT(*flip.value, 0.02) << shape << " at " << speed << " m/s over " << grey;
             testing::Test::RecordProperty(shape + "_flip_at_" + speed + "_over_" + std::to_string(grey),
                                           std::to_string(*flip.value));

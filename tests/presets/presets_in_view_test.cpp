@@ -63,7 +63,7 @@ void expectSeen(Method& method, const Frame& frame, draw::TestCanvas& canvas, do
 void expectInView(const char* method, const char* parameter, const std::string& preset, const Place& place,
                   int prerollSeconds, double leastShare) {
     SCOPED_TRACE(std::string(method) + ' ' + preset + " in " + place.scene);
-    bench::ProgramContext context(1);
+    claims::ProgramContext context(1);
     const auto world = context.world(
         place.scene, {{"preroll", std::to_string(prerollSeconds)}, {"particles", "0"}, {"camera", place.camera}}, width,
         height);

@@ -112,7 +112,7 @@ class Stage {
  public:
     Stage(gpu::Device& device, const std::string& scene)
         : device_(device),
-          world_(scene, "", ParameterValues(bench::worldParameters()), 1),
+          world_(scene, "", ParameterValues(world::worldParameters()), 1),
           opaque_(world_.scene(), device, width, height) {
         world_.step();
         opaque_.draw(world_.state(), world_.view(width, height));
@@ -159,7 +159,7 @@ class Stage {
         const scene::View view = world_.view(width, height);
         const StageClock untimed;
         for (int frame = 0; frame < frames; ++frame) {
-            const Frame now{frame, bench::stepSeconds, world_.state(), dust, view, untimed};
+            const Frame now{frame, world::stepSeconds, world_.state(), dust, view, untimed};
             method->update(now);
             layer.clear();
             method->draw(now, layer);
@@ -180,7 +180,7 @@ class Stage {
     }
 
     gpu::Device& device_;
-    bench::World world_;
+    world::World world_;
     draw::OpaqueScene opaque_;
 };
 
@@ -345,11 +345,11 @@ void drawGpuDust(gpu::Device& device) {
     gpu::Layer layer(device, depth);
     const StageClock untimed;
     for (const char* scene : {"plain", "two_soils"}) {
-        bench::World world(scene, "", ParameterValues(bench::worldParameters()), 1);
+        world::World world(scene, "", ParameterValues(world::worldParameters()), 1);
         world.moveDustTo(device);
         world.step();
         const scene::View view = world.view(width, height);
-        const Frame now{0, bench::stepSeconds, world.state(), Puffs{}, view, untimed, world.gpuDust()};
+        const Frame now{0, world::stepSeconds, world.state(), Puffs{}, view, untimed, world.gpuDust()};
         for (const MethodInfo& info : methods())
             for (const char* soft : {"off", "on"}) {
                 ParameterValues values(info.parameters);
@@ -366,9 +366,9 @@ void drawGpuDust(gpu::Device& device) {
 void drawEverything(gpu::Device& device) {
     drawGpuDust(device);
     sortNumbers(device);
-    (void)bench::correctnessChecks(device);
-    (void)bench::measureRates(device, [] {});
-    const bench::SplitView twoPictures(device);
+    (void)selfcheck::correctnessChecks(device);
+    (void)selfcheck::measureRates(device, [] {});
+    const view::SplitView twoPictures(device);
     drawGrids(device);
     runExperiments(device);
     Stages stages(device);

@@ -10,7 +10,7 @@
 #include "methods/kit/draw/test_canvas.h"
 #include "source_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench {
 namespace {
 
 struct Cell {
@@ -21,8 +21,8 @@ struct Cell {
 /// A world and a method in it, stepped together.
 class Running {
  public:
-    Running(const std::string& method, const Cell& cell, const ParameterTexts& given)
-        : parameters_(resolveParameters(findMethod(method), with(given, cell.particles))),
+    Running(const std::string& method, const Cell& cell, const results::ParameterTexts& given)
+        : parameters_(results::resolveParameters(findMethod(method), with(given, cell.particles))),
           world_(cell.scene, "", parameters_.world, cell.seed),
           canvas_(160, 120, {0, 0, 0}, {1, 0, 0}),
           method_(findMethod(method).create(parameters_.method)) {
@@ -39,20 +39,20 @@ class Running {
     pictures::Image picture() {
         return canvas_.picture([&](gpu::Layer& layer) { method_->draw(frame(0), layer); });
     }
-    [[nodiscard]] const World& world() const { return world_; }
+    [[nodiscard]] const world::World& world() const { return world_; }
     [[nodiscard]] const Method& method() const { return *method_; }
 
  private:
-    static ParameterTexts with(ParameterTexts given, const std::string& particles) {
+    static results::ParameterTexts with(results::ParameterTexts given, const std::string& particles) {
         given["particles"] = particles;
         return given;
     }
     [[nodiscard]] Frame frame(std::int64_t index) const {
-        return {index, stepSeconds, world_.state(), world_.dust(), canvas_.view, untimed_};
+        return {index, world::stepSeconds, world_.state(), world_.dust(), canvas_.view, untimed_};
     }
 
-    ResolvedParameters parameters_;
-    World world_;
+    results::ResolvedParameters parameters_;
+    world::World world_;
     StageClock untimed_;
     draw::TestCanvas canvas_;
     std::unique_ptr<Method> method_;
@@ -90,4 +90,4 @@ TEST(WheelDust, LooksAsBillboardsDo) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench

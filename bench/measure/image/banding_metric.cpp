@@ -7,7 +7,7 @@
 #include "bench/measure/image/picture.h"
 #include "bench/measure/image/separable_filter.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 /// Sums over windows. Beyond the picture's edge there is no mask, so nothing is added.
@@ -76,4 +76,4 @@ MetricGroup describe() {
 
 }  // namespace banding_metric
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

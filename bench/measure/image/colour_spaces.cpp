@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 /// X : Y : Z of a chromaticity (x, y), with Y = 1.
@@ -68,4 +68,4 @@ glm::vec3 linearFromLab(glm::vec3 lab) {
     return linearFromRelativeXyz * glm::vec3(expand(f.x), expand(f.y), expand(f.z));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

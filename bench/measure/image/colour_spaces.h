@@ -10,11 +10,11 @@
 
 #include <glm/glm.hpp>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 [[nodiscard]] glm::vec3 opponentFromLinear(glm::vec3 rgb);
 [[nodiscard]] glm::vec3 linearFromOpponent(glm::vec3 yCxCz);
 [[nodiscard]] glm::vec3 labFromLinear(glm::vec3 rgb);
 [[nodiscard]] glm::vec3 linearFromLab(glm::vec3 lab);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

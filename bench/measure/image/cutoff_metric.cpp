@@ -5,7 +5,7 @@
 #include "bench/measure/image/metric.h"
 #include "bench/measure/image/picture.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 Measured cutoff(const Plane& alpha, const Plane& alphaFree, const Plane& referenceAlpha,
                 const Plane& referenceAlphaFree) {
@@ -56,4 +56,4 @@ MetricGroup describe() {
 
 }  // namespace cutoff_metric
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

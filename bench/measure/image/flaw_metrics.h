@@ -11,7 +11,7 @@
 
 #include "bench/measure/image/picture.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 // --- Cut-off: hard edges where dust meets the ground or a solid, and not in the reference.
 //
@@ -92,4 +92,4 @@ inline constexpr std::size_t maximumPrimitives = 2048;
 /// The map: the number of quads (half side 1.5 r) that cover each pixel's centre.
 [[nodiscard]] Plane overdrawMap(std::span<const ScreenPrimitive> primitives, int width, int height);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -10,7 +10,7 @@
 #include "bench/measure/image/test_splatter.h"
 #include "bench/measure/image/volume_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 Plane even(int width, int height, double value) {
@@ -311,4 +311,4 @@ TEST(VolumeError, MeetsItsClosedForms) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

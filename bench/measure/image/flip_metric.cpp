@@ -13,7 +13,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/parallel/for_each_block.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 using std::numbers::pi;
@@ -215,4 +215,4 @@ MetricGroup describe() {
 
 }  // namespace flip_metric
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -8,7 +8,7 @@
 
 #include "bench/measure/image/colour_spaces.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 /// Chroma and hue (CIELAB, degrees) at equal steps of lightness. Chroma is the maximum in sRGB, rounded down.
@@ -41,4 +41,4 @@ pictures::Image heatMap(const Plane& map, float minimum, float maximum) {
     return image;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -10,7 +10,7 @@
 #include "bench/measure/image/picture.h"
 #include "methods/kit/pictures/image.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 /// Linear light. `share` is clamped to [0, 1].
 [[nodiscard]] glm::vec3 heatColour(float share);
@@ -18,4 +18,4 @@ namespace dustbench::bench {
 /// `minimum` maps to black, `maximum` to pale yellow. Throws std::invalid_argument if `maximum` is not above `minimum`.
 [[nodiscard]] pictures::Image heatMap(const Plane& map, float minimum = 0, float maximum = 1);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

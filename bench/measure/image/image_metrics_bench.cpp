@@ -6,7 +6,7 @@
 #include "bench/measure/image/popping.h"
 #include "bench/measure/image/test_splatter.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 /// 5,000 puffs over half of the picture; the method's are displaced by up to three pixels.
@@ -89,4 +89,4 @@ void selfSimilarityOf5000Puffs(benchmark::State& state) {
 BENCHMARK(selfSimilarityOf5000Puffs)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -21,7 +21,7 @@
 
 #include "bench/measure/image/picture.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 /// One step of an 8-bit picture over black.
 inline constexpr float maskAlpha = 1.0f / 255;
@@ -62,4 +62,4 @@ inline constexpr int bandingWindow = 5;  ///< pixels along an edge
 /// 0 or more; empty for an empty mask. Throws InputError if the sizes differ.
 [[nodiscard]] std::optional<double> banding(const Picture& reference, const Picture& picture, const Mask& mask);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -6,7 +6,7 @@
 #include "bench/measure/image/metric.h"
 #include "bench/measure/image/picture.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 /// Sums over the differences between two pictures within a mask.
@@ -114,4 +114,4 @@ MetricGroup describe() {
 
 }  // namespace masked_error_metric
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

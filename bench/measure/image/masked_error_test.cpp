@@ -10,7 +10,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/maths/philox.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 /// A method's and a reference's layer, as formulas: colour and alpha of dust around the origin, over an even sky.
@@ -204,4 +204,4 @@ TEST(Banding, StaysWithinTheMaskAndIsEmptyWithoutOne) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -5,7 +5,7 @@
 #include <string>
 #include <tuple>
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 /// Generated from the files NAME_metric.cpp (metric_list.cpp.in).
 std::vector<MetricGroup> describeMetrics();
@@ -90,4 +90,4 @@ MetricValues valuesOf(const PoppingOfRun& run) {
     return values;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

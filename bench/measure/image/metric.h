@@ -2,7 +2,7 @@
 //
 // A file NAME_metric.cpp of this folder declares the metrics that it computes together:
 //
-//     namespace dustbench::bench::NAME_metric {
+//     namespace dustbench::measure::NAME_metric {
 //     MetricGroup describe() { … }
 //     }
 //
@@ -20,7 +20,7 @@
 #include "bench/measure/image/popping.h"
 #include "bench/measure/image/volume_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 /// What a metric needs, and thereby the reference that it refers to.
 enum class Needs {
@@ -118,4 +118,4 @@ class MetricValues {
 /// The metrics of a run that come from pairs of frames.
 [[nodiscard]] MetricValues valuesOf(const PoppingOfRun& run);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -16,7 +16,7 @@
 #include "bench/measure/image/test_splatter.h"
 #include "source_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 using Puffs = std::vector<TestPuff>;
@@ -364,4 +364,4 @@ TEST(MetricResponse, SelfSimilarityIsTheShareOfPairsThatLookAlike) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -8,7 +8,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/parallel/for_each_block.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 /// Throws if `isBad(index)` holds for any pixel; reports how many, and the first.
@@ -97,4 +97,4 @@ Plane alphaOf(const pictures::Image& layer, std::string_view name) {
     return alpha;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -15,7 +15,7 @@
 
 #include "methods/kit/pictures/image.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 /// One number per pixel: a channel of a picture, an alpha, or the map of a metric.
 template <typename Number>
@@ -92,4 +92,4 @@ void requireSameSize(const Plane& plane, std::string_view name, const Plane& oth
 /// The alpha of a layer: checked to lie in [0, 1] within the tolerance, then clamped.
 [[nodiscard]] Plane alphaOf(const pictures::Image& layer, std::string_view name);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -9,7 +9,7 @@
 
 #include "bench/measure/image/picture.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 // --- Per-pixel error between two pictures: PSNR of display-encoded values, RMSE of linear light.
 //
@@ -60,4 +60,4 @@ inline constexpr double minimumPixelsPerDegree = 1, maximumPixelsPerDegree = 100
 [[nodiscard]] Measured flip(const Picture& reference, const Picture& picture,
                             double pixelsPerDegree = defaultPixelsPerDegree);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -5,7 +5,7 @@
 
 #include "bench/measure/image/metric.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 /// Squared difference averaged over the channels: per pixel and over the picture.
@@ -102,4 +102,4 @@ MetricGroup describe() {
 
 }  // namespace picture_error_metric
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -11,7 +11,7 @@
 #include "bench/measure/image/separable_filter.h"
 #include "bench/measure/image/test_images.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 double meanOf(const Plane& plane) {
@@ -166,4 +166,4 @@ TEST(HeatMap, SpansTheRangeThatItIsGiven) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

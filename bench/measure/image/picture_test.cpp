@@ -12,7 +12,7 @@
 #include "bench/measure/image/volume_error.h"
 #include "methods/kit/testing/test_input_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
@@ -107,4 +107,4 @@ TEST(ImageCheck, GridsMustBeWholeFiniteAndAlike) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -13,7 +13,7 @@
 
 #include "bench/measure/image/picture.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 /// One frame: the pictures over the scene, and the alphas of the dust alone.
 struct DustFrame {
@@ -92,4 +92,4 @@ struct PoppingBySize {
 [[nodiscard]] PoppingBySize poppingBySize(const DustFrame& before, const DustFrame& now, const SizeDepths& depthsBefore,
                                           const SizeDepths& depthsNow);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -6,7 +6,7 @@
 #include "bench/measure/image/metric.h"
 #include "bench/measure/image/picture.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 void requireOneSize(const DustFrame& frame, const DustFrame& first) {
@@ -113,4 +113,4 @@ MetricGroup describe() {
 
 }  // namespace popping_metric
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

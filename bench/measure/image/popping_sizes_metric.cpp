@@ -5,7 +5,7 @@
 
 #include "bench/measure/image/metric.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 /// Half-side of a quad in units of its primitive's radius.
@@ -108,4 +108,4 @@ MetricGroup describe() {
 
 }  // namespace popping_sizes_metric
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

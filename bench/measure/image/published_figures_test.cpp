@@ -15,7 +15,7 @@
 #include "bench/measure/image/picture_error.h"
 #include "bench/measure/image/test_images.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 struct Published {
@@ -69,4 +69,4 @@ INSTANTIATE_TEST_SUITE_P(Pairs, PublishedFigures, testing::ValuesIn(published())
 });
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -6,7 +6,7 @@
 #include "bench/measure/image/metric.h"
 #include "bench/measure/image/picture.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 constexpr double quadHalfSide = 1.5;  // of the radius
@@ -69,4 +69,4 @@ MetricGroup describe() {
 
 }  // namespace quads_per_pixel_metric
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

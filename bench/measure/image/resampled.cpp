@@ -5,7 +5,7 @@
 
 #include "methods/kit/pictures/picture_library.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 pictures::Image resampled(const pictures::Image& image, int width, int height) {
     if (width < 1 || height < 1 || image.width < 1 || image.height < 1)
@@ -20,4 +20,4 @@ pictures::Image resampled(const pictures::Image& image, int width, int height) {
     return result;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -4,7 +4,7 @@
 
 #include "bench/measure/image/test_images.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 TEST(Resampled, AveragesInLinearLight) {
@@ -32,4 +32,4 @@ TEST(Resampled, StaysWithinTheImagesRangeAndPlace) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

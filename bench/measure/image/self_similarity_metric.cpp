@@ -9,7 +9,7 @@
 #include "bench/measure/image/picture.h"
 #include "methods/kit/maths/philox.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 constexpr int side = 17;
@@ -159,4 +159,4 @@ MetricGroup describe() {
 
 }  // namespace self_similarity_metric
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -6,7 +6,7 @@
 
 #include "methods/kit/parallel/for_each_block.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 constexpr std::size_t rowsOfBlock = 16;
@@ -72,4 +72,4 @@ template PlaneOf<double> filterRows(const PlaneOf<double>&, std::span<const doub
 template PlaneOf<double> filterColumns(const PlaneOf<double>&, std::span<const double>);
 template std::vector<double> gaussianKernel<double>(double, int);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -9,7 +9,7 @@
 
 #include "bench/measure/image/picture.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 /// out(x) = Σ kernel[r + i] · in(x + i) over i = −r..r; the kernel has 2r + 1 weights.
 template <typename Number>
@@ -27,4 +27,4 @@ template <typename Number>
     return filterColumns(filterRows(plane, kernel), kernel);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -5,7 +5,7 @@
 #include "bench/measure/image/metric.h"
 #include "bench/measure/image/separable_filter.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
@@ -94,4 +94,4 @@ MetricGroup describe() {
 
 }  // namespace ssim_metric
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -11,7 +11,7 @@
 
 #include "bench/measure/image/picture.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 using Formula = std::function<double(int x, int y, int c)>;
 
@@ -83,4 +83,4 @@ inline TestPair puffs() {
     return {dust(0), dust(1)};
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -14,7 +14,7 @@
 #include "bench/measure/image/picture.h"
 #include "methods/kit/maths/philox.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 struct TestPuff {
     double x = 0, y = 0, depth = 0;
@@ -118,4 +118,4 @@ inline std::vector<ScreenPrimitive> testPrimitives(const std::vector<TestPuff>& 
     return primitives;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -5,7 +5,7 @@
 #include "bench/measure/image/metric.h"
 #include "bench/measure/image/picture.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 bool isTrail(const Plane& reference, std::size_t i) {
@@ -146,4 +146,4 @@ MetricGroup describe() {
 
 }  // namespace trail_gaps_metric
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -16,7 +16,7 @@
 
 #include "bench/measure/image/picture.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 struct GridCells {
     std::array<int, 3> cells{0, 0, 0};
@@ -36,4 +36,4 @@ inline constexpr double maximumVolumePicture = 0.5;
 /// Throws InputError if the sizes differ.
 [[nodiscard]] std::optional<double> volumePicture(const Plane& alpha, const Plane& volumeAlpha);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

@@ -8,7 +8,7 @@
 #include "bench/measure/image/metric.h"
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 namespace {
 
 void requireWhole(const GridCells& grid, const char* name) {
@@ -71,4 +71,4 @@ MetricGroup describe() {
 
 }  // namespace volume_error_metric
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

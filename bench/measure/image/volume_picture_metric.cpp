@@ -6,7 +6,7 @@
 #include "bench/measure/image/metric.h"
 #include "bench/measure/image/picture.h"
 
-namespace dustbench::bench {
+namespace dustbench::measure {
 
 std::optional<double> volumePicture(const Plane& alpha, const Plane& volumeAlpha) {
     requireSameSize(alpha, "the method's layer", volumeAlpha, "its volume's layer");
@@ -43,4 +43,4 @@ MetricGroup describe() {
 
 }  // namespace volume_picture_metric
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::measure

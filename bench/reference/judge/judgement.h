@@ -12,20 +12,20 @@
 #include "bench/measure/image/metric.h"
 #include "bench/reference/judge/moment_pictures.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 
 /// `popping` is the value from the previous frame to this one.
 struct MomentMetrics {
     std::int64_t frame = 0;
     double timeSeconds = 0;
-    MetricValues values{};
+    measure::MetricValues values{};
 };
 
 /// Data for the metrics of a moment, other than its pictures.
 struct MomentFacts {
     std::int64_t primitives = 0;  ///< handed to the GPU by the method
-    const CollectedVolume& volume;
-    const CollectedVolume& referenceVolume;
+    const exports::CollectedVolume& volume;
+    const exports::CollectedVolume& referenceVolume;
     const scene::View& view;
     std::uint64_t seed = 1;
 };
@@ -34,7 +34,7 @@ struct EvaluatedMoment {
     MomentMetrics metrics;
     pictures::Image picture;    ///< over the scene
     pictures::Image reference;  ///< over the scene
-    Plane difference;           ///< FLIP map
+    measure::Plane difference;  ///< FLIP map
 };
 
 /// The metrics that need only the two pictures; all others are empty.
@@ -48,15 +48,15 @@ class PoppingMeter {
  public:
     /// Adds the next frame of the stretch; returns nothing for the first. `primitives`: those that the method draws.
     std::optional<double> add(const DrawnMoment& drawn, const ExactMoment& exact,
-                              std::span<const SizedPrimitive> primitives = {});
+                              std::span<const measure::SizedPrimitive> primitives = {});
     /// Values by size are means over the pairs; a pair in which a side has no pixel adds nothing to that side.
-    [[nodiscard]] PoppingOfRun ofRun() const;
+    [[nodiscard]] measure::PoppingOfRun ofRun() const;
 
  private:
     struct Kept {
-        Picture image, reference;
-        Plane alpha, referenceAlpha;
-        std::optional<SizeDepths> depths;
+        measure::Picture image, reference;
+        measure::Plane alpha, referenceAlpha;
+        std::optional<measure::SizeDepths> depths;
     };
     struct Mean {
         double sum = 0;
@@ -66,14 +66,14 @@ class PoppingMeter {
         [[nodiscard]] std::optional<double> value() const;
     };
     std::optional<Kept> before_;
-    PoppingSummary summary_;
+    measure::PoppingSummary summary_;
     Mean small_, large_, smallPart_, largePart_;
 };
 
 /// Metrics of one run; frames ascending.
 struct RunMetrics {
     std::vector<MomentMetrics> frames;  ///< moments, and the consecutive frames for popping, which have only popping
-    MetricValues ofRun{};               ///< those of pairs of frames
+    measure::MetricValues ofRun{};      ///< those of pairs of frames
 };
 
 /// `frame,time_s,` and every metric with values of frames.
@@ -87,4 +87,4 @@ struct RunMetrics {
 /// volumes than it reports; else empty.
 [[nodiscard]] std::string volumeWarning(const RunMetrics& runMetrics);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

@@ -7,7 +7,7 @@
 #include "bench/measure/image/popping.h"
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 
 std::vector<std::int64_t> MetricPlan::momentsOf(std::int64_t frames) const {
     std::vector<std::int64_t> list;
@@ -22,7 +22,7 @@ std::vector<std::int64_t> MetricPlan::momentsOf(std::int64_t frames) const {
 
 std::vector<std::int64_t> MetricPlan::stretchOf(std::int64_t frames) {
     std::vector<std::int64_t> list;
-    const std::int64_t count = PoppingSummary::minimumPairs + 1;
+    const std::int64_t count = measure::PoppingSummary::minimumPairs + 1;
     if (frames < count) return list;
     for (std::int64_t frame = frames - count; frame < frames; ++frame) list.push_back(frame);
     return list;
@@ -45,4 +45,4 @@ void requireMomentsWithinRun(const MetricPlan& plan, std::int64_t frames) {
                                      plan.moments->last, frames - 1));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

@@ -10,13 +10,13 @@
 
 #include "bench/export/volume_settings.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 
 inline constexpr std::int64_t minimumMoments = 5;
 
 struct MetricPlan {
     /// Empty: five moments, evenly spaced from the first frame to the last.
-    std::optional<FrameRange> moments;
+    std::optional<exports::FrameRange> moments;
     /// Empty: the reference is the ground truth of the particles. Otherwise it is the same method with these parameters
     /// set to finer values, for methods with their own simulation, which have no ground truth.
     std::map<std::string, std::string, std::less<>> finer;
@@ -34,4 +34,4 @@ struct MetricPlan {
 /// Throws InputError for fewer than five moments, or moments beyond the end of the run.
 void requireMomentsWithinRun(const MetricPlan& plan, std::int64_t frames);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

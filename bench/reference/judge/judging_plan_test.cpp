@@ -6,7 +6,7 @@
 #include "methods/kit/files/csv.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 namespace {
 
 using testing::ElementsAre;
@@ -23,12 +23,12 @@ TEST(MetricPlan, TakesFiveMomentsFromTheFirstFrameToTheLast) {
 }
 
 TEST(MetricPlan, TakesTheMomentsThatAreNamed) {
-    const MetricPlan plan{FrameRange{2, 14, 3}, {}};
+    const MetricPlan plan{exports::FrameRange{2, 14, 3}, {}};
     EXPECT_THAT(plan.momentsOf(120), ElementsAre(2, 5, 8, 11, 14));
     EXPECT_NO_THROW(requireMomentsWithinRun(plan, 15));
     EXPECT_THAT(inputError([&] { requireMomentsWithinRun(plan, 14); }), HasSubstr("frame 14 is beyond"));
     EXPECT_THAT(inputError([] {
-                    requireMomentsWithinRun({FrameRange{0, 3, 1}, {}}, 100);
+                    requireMomentsWithinRun({exports::FrameRange{0, 3, 1}, {}}, 100);
                 }),
                 HasSubstr("got 4 frames (0:4:1)"));
 }
@@ -73,4 +73,4 @@ TEST(RunMetrics, LeavesCellsEmptyWhereNothingIsDefined) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

@@ -7,7 +7,7 @@
 #include "methods/contract/volume.h"
 #include "methods/kit/octree/cell_kernel.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 
 ExactMoment exactMoment(const scene::Scene& scene, const scene::View& view, const DrawnMoment& drawn, const Puffs& dust,
                         bool withDetail, const std::optional<Puffs>& continuum, ReferenceStore& store) {
@@ -32,10 +32,11 @@ ExactMoment exactMoment(const scene::Scene& scene, const scene::View& view, cons
     return exact;
 }
 
-std::vector<SizedPrimitive> sizedPrimitivesOnScreen(const CollectedVolume& volume, const scene::View& view) {
+std::vector<measure::SizedPrimitive> sizedPrimitivesOnScreen(const exports::CollectedVolume& volume,
+                                                             const scene::View& view) {
     const CameraRays rays(view);
     const double pixelsPerSlope = rays.pixelX(1) - rays.pixelX(0);
-    std::vector<SizedPrimitive> primitives;
+    std::vector<measure::SizedPrimitive> primitives;
     const auto add = [&](const glm::dvec3& centre, double radiusMetres, double sizeMetres, double opticalDepth) {
         const glm::dvec3 place = rays.fromWorld(centre);
         if (place.z <= view.camera.nearMetres) return;
@@ -44,11 +45,11 @@ std::vector<SizedPrimitive> sizedPrimitivesOnScreen(const CollectedVolume& volum
              sizeMetres,
              opticalDepth});
     };
-    for (const CollectedPuff& puff : volume.puffs()) {
+    for (const exports::CollectedPuff& puff : volume.puffs()) {
         const auto radius = static_cast<double>(puff.radiusMetres);
         add(glm::dvec3(puff.centre), radius, radius, -std::log1p(-static_cast<double>(puff.opacity)));
     }
-    for (const CollectedOctree& octree : volume.octrees())
+    for (const exports::CollectedOctree& octree : volume.octrees())
         for (const OctreeVoxel& voxel : octree.voxels) {
             const double edge = octree.cellEdgeMetres(voxel.level);
             add(octree.minimumCorner(voxel) + 0.5 * edge, edge / static_cast<double>(octree::edgePerRadius), edge,
@@ -57,10 +58,11 @@ std::vector<SizedPrimitive> sizedPrimitivesOnScreen(const CollectedVolume& volum
     return primitives;
 }
 
-std::vector<ScreenPrimitive> primitivesOnScreen(const CollectedVolume& volume, const scene::View& view) {
-    std::vector<ScreenPrimitive> primitives;
-    for (const SizedPrimitive& each : sizedPrimitivesOnScreen(volume, view)) primitives.push_back(each.place);
+std::vector<measure::ScreenPrimitive> primitivesOnScreen(const exports::CollectedVolume& volume,
+                                                         const scene::View& view) {
+    std::vector<measure::ScreenPrimitive> primitives;
+    for (const measure::SizedPrimitive& each : sizedPrimitivesOnScreen(volume, view)) primitives.push_back(each.place);
     return primitives;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

@@ -17,7 +17,7 @@
 #include "methods/contract/volume.h"
 #include "methods/kit/pictures/image.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 
 /// The method's pictures.
 struct DrawnMoment {
@@ -46,10 +46,11 @@ inline constexpr std::int64_t continuumParticles = 64;
                                       ReferenceStore& store);
 
 /// The same with sizes in metres (a voxel's edge or a puff's radius) and optical depths.
-[[nodiscard]] std::vector<SizedPrimitive> sizedPrimitivesOnScreen(const CollectedVolume& volume,
-                                                                  const scene::View& view);
+[[nodiscard]] std::vector<measure::SizedPrimitive> sizedPrimitivesOnScreen(const exports::CollectedVolume& volume,
+                                                                           const scene::View& view);
 /// Screen positions of puffs, or of voxels as puffs of equal optical depth (edge = 1.2533 r). Primitives behind the eye
 /// are omitted.
-[[nodiscard]] std::vector<ScreenPrimitive> primitivesOnScreen(const CollectedVolume& volume, const scene::View& view);
+[[nodiscard]] std::vector<measure::ScreenPrimitive> primitivesOnScreen(const exports::CollectedVolume& volume,
+                                                                       const scene::View& view);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

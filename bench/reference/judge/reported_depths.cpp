@@ -9,7 +9,7 @@
 #include "bench/reference/depth_sum.h"
 #include "methods/kit/parallel/for_each_block.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 namespace {
 
 constexpr std::size_t rowsAtOnce = 4;
@@ -77,9 +77,9 @@ void findPixels(Cube& cube, const CameraRays& rays) {
     pixels(top, bottom, rays.height(), cube.firstRow, cube.endRow);
 }
 
-std::vector<Cube> cubesOf(const CollectedVolume& volume, const CameraRays& rays) {
+std::vector<Cube> cubesOf(const exports::CollectedVolume& volume, const CameraRays& rays) {
     std::vector<Cube> cubes;
-    for (const CollectedOctree& octree : volume.octrees())
+    for (const exports::CollectedOctree& octree : volume.octrees())
         for (const OctreeVoxel& voxel : octree.voxels) {
             const glm::dvec3 corner = octree.minimumCorner(voxel);
             Cube cube{corner,
@@ -96,7 +96,7 @@ std::vector<Cube> cubesOf(const CollectedVolume& volume, const CameraRays& rays)
 }
 
 /// Walks from cell to cell along the ray.
-double depthThrough(const CollectedGrid& grid, const Ray& ray) {
+double depthThrough(const exports::CollectedGrid& grid, const Ray& ray) {
     const double spacing = grid.spacingMetres;
     const Span span = within(ray, grid.originMetres, grid.originMetres + glm::dvec3(grid.cells) * spacing);
     if (!(span.end > span.begin)) return 0;
@@ -126,11 +126,11 @@ double depthThrough(const CollectedGrid& grid, const Ray& ray) {
 }
 
 /// The optical depths of the volume's puffs.
-std::vector<double> depthsOfPuffs(const std::vector<CollectedPuff>& puffs, const CameraRays& rays,
+std::vector<double> depthsOfPuffs(const std::vector<exports::CollectedPuff>& puffs, const CameraRays& rays,
                                   const OpaqueDistances& distances) {
     std::vector<std::uint64_t> serial;
     std::array<std::vector<float>, 5> columns;
-    for (const CollectedPuff& puff : puffs) {
+    for (const exports::CollectedPuff& puff : puffs) {
         serial.push_back(serial.size());
         const std::array values{puff.centre.x, puff.centre.y, puff.centre.z, puff.radiusMetres, puff.opacity};
         for (std::size_t i = 0; i < values.size(); ++i) columns[i].push_back(values[i]);
@@ -149,7 +149,7 @@ std::vector<double> depthsOfPuffs(const std::vector<CollectedPuff>& puffs, const
 
 }  // namespace
 
-std::vector<double> reportedDepths(const CollectedVolume& volume, const scene::View& view,
+std::vector<double> reportedDepths(const exports::CollectedVolume& volume, const scene::View& view,
                                    const OpaqueDistances& distances) {
     checkDistances(view, distances);
     const CameraRays rays(view);
@@ -172,19 +172,20 @@ std::vector<double> reportedDepths(const CollectedVolume& volume, const scene::V
                          x < static_cast<std::size_t>(cube.endColumn); ++x)
                         sums[x] += cube.extinctionPerMetre * within(row[x], cube.minimum, cube.maximum).length();
                 }
-                for (const CollectedGrid& grid : volume.grids())
+                for (const exports::CollectedGrid& grid : volume.grids())
                     for (std::size_t x = 0; x < width; ++x) sums[x] += depthThrough(grid, row[x]);
             }
         });
     return depths;
 }
 
-Plane reportedAlpha(const CollectedVolume& volume, const scene::View& view, const OpaqueDistances& distances) {
-    Plane alpha(view.width, view.height);
+measure::Plane reportedAlpha(const exports::CollectedVolume& volume, const scene::View& view,
+                             const OpaqueDistances& distances) {
+    measure::Plane alpha(view.width, view.height);
     const std::vector<double> depths = reportedDepths(volume, view, distances);
     std::ranges::transform(depths, alpha.values.begin(),
                            [](double depth) { return static_cast<float>(-std::expm1(-depth)); });
     return alpha;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

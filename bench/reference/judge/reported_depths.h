@@ -14,15 +14,15 @@
 #include "bench/reference/camera_rays.h"
 #include "methods/contract/view.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 
 /// Puffs together are too low by less than 1e-6 + 4e-9 of the sum; cubes are exact up to rounding. Throws
 /// std::invalid_argument for distances that do not fit the view.
-[[nodiscard]] std::vector<double> reportedDepths(const CollectedVolume& volume, const scene::View& view,
+[[nodiscard]] std::vector<double> reportedDepths(const exports::CollectedVolume& volume, const scene::View& view,
                                                  const OpaqueDistances& distances);
 
 /// 1 − exp(−depth) of each pixel.
-[[nodiscard]] Plane reportedAlpha(const CollectedVolume& volume, const scene::View& view,
-                                  const OpaqueDistances& distances);
+[[nodiscard]] measure::Plane reportedAlpha(const exports::CollectedVolume& volume, const scene::View& view,
+                                           const OpaqueDistances& distances);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

@@ -11,7 +11,7 @@
 #include "bench/reference/particle_image.h"
 #include "bench/reference/test_clouds.h"
 
-namespace dustbench::bench {
+namespace dustbench::reference {
 namespace {
 
 std::size_t middlePixel(const scene::View& view) {
@@ -19,15 +19,15 @@ std::size_t middlePixel(const scene::View& view) {
 }
 
 /// One voxel of this edge around the origin.
-CollectedVolume oneVoxel(double edge, float extinction) {
+exports::CollectedVolume oneVoxel(double edge, float extinction) {
     const OctreeVoxel voxel{0, 0, 0, 0, extinction, 0};
-    CollectedVolume volume;
+    exports::CollectedVolume volume;
     volume.octree({glm::dvec3(-edge / 2), edge, 3, {&voxel, 1}});
     return volume;
 }
 
 TEST(ReportedDepths, OfACubeIsItsExtinctionTimesTheWayThroughIt) {
-    const CollectedVolume volume = oneVoxel(2, 0.3f);
+    const exports::CollectedVolume volume = oneVoxel(2, 0.3f);
     const double extinction = static_cast<double>(0.3f);
     const auto depthFrom = [&](const glm::dvec3& eye, double opaqueMetres) {
         // An odd size: the middle pixel looks straight at the origin.
@@ -50,7 +50,7 @@ TEST(ReportedDepths, OfPuffsAreThoseOfTheExactPicture) {
         const auto store = test::ball(ledger, seed, 50, {0, 1, 0}, 3, 0.8f);
         const scene::View view = test::viewFrom({-7, 2, 5}, {0, 0.5, 0});
         const OpaqueDistances ground = test::groundDistances(view, 0);
-        CollectedVolume volume;
+        exports::CollectedVolume volume;
         volume.puffs(store);
         EXPECT_EQ(reportedDepths(volume, view, ground), renderParticles(store, view, ground).opticalDepths);
     }
@@ -58,7 +58,7 @@ TEST(ReportedDepths, OfPuffsAreThoseOfTheExactPicture) {
 
 /// The same random cells as a grid and as an octree's voxels of one level.
 struct SameCells {
-    CollectedVolume asGrid, asVoxels;
+    exports::CollectedVolume asGrid, asVoxels;
 
     explicit SameCells(std::uint64_t seed) {
         constexpr int cells = 8;
@@ -105,7 +105,7 @@ TEST(ReportedDepths, OfSeveralPartsAddUpAtAnyNumberOfThreads) {
     const OpaqueDistances sky = skyDistances(view);
     const SameCells same(9);
     SameCells both(9);
-    CollectedVolume puffs, &all = both.asGrid;
+    exports::CollectedVolume puffs, &all = both.asGrid;
     puffs.puffs(store);
     all.puffs(store);
     const auto a = reportedDepths(same.asGrid, view, sky), b = reportedDepths(puffs, view, sky);
@@ -118,16 +118,16 @@ TEST(ReportedDepths, OfSeveralPartsAddUpAtAnyNumberOfThreads) {
 
 TEST(VolumePicture, IsZeroForTheSameAndOneForNothing) {
     const scene::View view = test::viewFrom({7, 2, 5}, {0, 1, 0});
-    const Plane alpha = reportedAlpha(oneVoxel(2, 0.3f), view, skyDistances(view));
-    const Plane none(view.width, view.height);
-    EXPECT_EQ(volumePicture(alpha, alpha), 0);
-    EXPECT_EQ(volumePicture(alpha, none), 1);
-    EXPECT_EQ(volumePicture(none, alpha), 1);
-    EXPECT_EQ(volumePicture(none, none), std::nullopt);
-    Plane half = alpha;
+    const measure::Plane alpha = reportedAlpha(oneVoxel(2, 0.3f), view, skyDistances(view));
+    const measure::Plane none(view.width, view.height);
+    EXPECT_EQ(measure::volumePicture(alpha, alpha), 0);
+    EXPECT_EQ(measure::volumePicture(alpha, none), 1);
+    EXPECT_EQ(measure::volumePicture(none, alpha), 1);
+    EXPECT_EQ(measure::volumePicture(none, none), std::nullopt);
+    measure::Plane half = alpha;
     for (float& value : half.values) value /= 2;
-    EXPECT_NEAR(*volumePicture(alpha, half), 0.5, 1e-6);
-    EXPECT_NEAR(*volumePicture(half, alpha), 0.5, 1e-6);
+    EXPECT_NEAR(*measure::volumePicture(alpha, half), 0.5, 1e-6);
+    EXPECT_NEAR(*measure::volumePicture(half, alpha), 0.5, 1e-6);
 }
 
 // A method that reports another volume than it draws is detected.
@@ -142,7 +142,7 @@ class FakeMethod {
         drawn.sceneDepth.assign(pixels(), 0);
         drawn.layer = renderParticles(drawnCloud, view_, skyDistances(view_)).image;
         drawn.layerWithoutScene = drawn.layer;
-        CollectedVolume volume, reference;
+        exports::CollectedVolume volume, reference;
         volume.puffs(reportedCloud);
         reference.puffs(exactCloud);
         RunMetrics runMetrics;
@@ -199,5 +199,4 @@ TEST(ReportedVolume, ThatIsDrawnAtAThirdOfItsDepthIsFlagged) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::reference

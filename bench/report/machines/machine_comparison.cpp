@@ -18,7 +18,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/machine_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -49,8 +49,12 @@ using nlohmann::json;
 /// `[ratio, low, high, pairs, verdict, reason]`; null: not measured.
 json sideJson(const SideRatio& side) {
     if (side.result.pairs == 0 && side.reason == "not measured") return nullptr;
-    return {number(side.result.ratio), number(side.result.low),          number(side.result.high),
-            side.result.pairs,         verdictName(side.result.verdict), side.reason};
+    return {number(side.result.ratio),
+            number(side.result.low),
+            number(side.result.high),
+            side.result.pairs,
+            measure::verdictName(side.result.verdict),
+            side.reason};
 }
 
 json rowJson(const RatioRow& row) {
@@ -98,7 +102,7 @@ json experimentJson(const MachineExperiment& experiment) {
 json claimsJson(const SharedClaim& shared) {
     json claim = claimJson(shared.any());
     claim["agreement"] = agreementText(shared.agreement);
-    claim["folders"] = each(shared.folders, [](const EvaluatedClaim* evaluated) {
+    claim["folders"] = each(shared.folders, [](const claims::EvaluatedClaim* evaluated) {
         if (!evaluated) return json(nullptr);
         json own = claimJson(*evaluated);
         json kept = json::object();
@@ -152,7 +156,7 @@ fs::path writeMachinesPage(const fs::path& out, const MachineComparison& compari
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) files::failWriting(folder.string(), error.value());
-    writeWhole(file, page);
+    exports::writeWhole(file, page);
     return file;
 }
 
@@ -161,30 +165,31 @@ std::string_view agreementText(Agreement agreement) {
 }
 
 Agreement agreementOf(const std::vector<SideRatio>& sides) {
-    std::vector<const PairedRatio*> measured;
-    std::set<Verdict> resolved;
+    std::vector<const measure::PairedRatio*> measured;
+    std::set<measure::Verdict> resolved;
     for (const SideRatio& side : sides) {
         if (side.result.pairs == 0) continue;
         measured.push_back(&side.result);
-        if (side.result.verdict != Verdict::unresolved) resolved.insert(side.result.verdict);
+        if (side.result.verdict != measure::Verdict::unresolved) resolved.insert(side.result.verdict);
     }
     if (measured.size() < 2) return Agreement::alone;
     if (resolved.size() > 1) return Agreement::differ;
-    if (std::ranges::any_of(measured, [](const PairedRatio* one) { return one->verdict == Verdict::unresolved; }))
+    if (std::ranges::any_of(
+            measured, [](const measure::PairedRatio* one) { return one->verdict == measure::Verdict::unresolved; }))
         return Agreement::open;
-    for (const PairedRatio* a : measured)
-        for (const PairedRatio* b : measured)
+    for (const measure::PairedRatio* a : measured)
+        for (const measure::PairedRatio* b : measured)
             if (a->low > b->high) return Agreement::factor;
     return Agreement::agree;
 }
 
-Agreement agreementOf(const std::vector<ClaimVerdict>& verdicts) {
-    std::set<ClaimVerdict> decided;
+Agreement agreementOf(const std::vector<claims::ClaimVerdict>& verdicts) {
+    std::set<claims::ClaimVerdict> decided;
     std::size_t tested = 0, open = 0;
-    for (const ClaimVerdict verdict : verdicts) {
-        if (verdict == ClaimVerdict::notTested) continue;
+    for (const claims::ClaimVerdict verdict : verdicts) {
+        if (verdict == claims::ClaimVerdict::notTested) continue;
         ++tested;
-        if (verdict == ClaimVerdict::unresolved || verdict == ClaimVerdict::untestable)
+        if (verdict == claims::ClaimVerdict::unresolved || verdict == claims::ClaimVerdict::untestable)
             ++open;
         else
             decided.insert(verdict);
@@ -194,26 +199,26 @@ Agreement agreementOf(const std::vector<ClaimVerdict>& verdicts) {
     return open > 0 ? Agreement::open : Agreement::agree;
 }
 
-const EvaluatedClaim& SharedClaim::any() const {
-    return **std::ranges::find_if(folders, [](const EvaluatedClaim* claim) { return claim != nullptr; });
+const claims::EvaluatedClaim& SharedClaim::any() const {
+    return **std::ranges::find_if(folders, [](const claims::EvaluatedClaim* claim) { return claim != nullptr; });
 }
 
 std::vector<SharedClaim> sharedClaims(const MachineSet& set) {
     std::vector<SharedClaim> claims;
     for (std::size_t folder = 0; folder < set.folders.size(); ++folder)
-        for (const EvaluatedClaim& evaluated : set.folders[folder].claims) {
+        for (const claims::EvaluatedClaim& evaluated : set.folders[folder].claims) {
             auto found = std::ranges::find_if(claims, [&](const SharedClaim& known) {
                 return known.any().paper == evaluated.paper && known.any().claim.id == evaluated.claim.id;
             });
             if (found == claims.end()) {
-                claims.push_back({std::vector<const EvaluatedClaim*>(set.folders.size(), nullptr), {}});
+                claims.push_back({std::vector<const claims::EvaluatedClaim*>(set.folders.size(), nullptr), {}});
                 found = std::prev(claims.end());
             }
             found->folders[folder] = &evaluated;
         }
     for (SharedClaim& claim : claims) {
-        std::vector<ClaimVerdict> verdicts;
-        for (const EvaluatedClaim* evaluated : claim.folders)
+        std::vector<claims::ClaimVerdict> verdicts;
+        for (const claims::EvaluatedClaim* evaluated : claim.folders)
             if (evaluated) verdicts.push_back(evaluated->result.verdict);
         claim.agreement = agreementOf(verdicts);
     }
@@ -223,7 +228,9 @@ std::vector<SharedClaim> sharedClaims(const MachineSet& set) {
 
 std::string machinesJson(const MachineComparison& comparison) {
     const MachineSet& set = comparison.set;
-    json root{{"written", set.folders.front().writtenUtc}, {"version", buildFacts().version}, {"folders", set.labels}};
+    json root{{"written", set.folders.front().writtenUtc},
+              {"version", measure::buildFacts().version},
+              {"folders", set.labels}};
     root["machines"] = each(set.sides, [](const MachineSide& side) {
         return json{{"label", side.label}, {"folder", side.folder}, {"software", isSoftware(side)}};
     });
@@ -235,12 +242,12 @@ std::string machinesJson(const MachineComparison& comparison) {
     root["claims"] = each(comparison.claims, claimsJson);
     json papers = json::object();
     for (const ReportData& folder : set.folders)
-        for (const Paper& paper : folder.papers) papers[paper.id] = paper.title;
+        for (const suite::Paper& paper : folder.papers) papers[paper.id] = paper.title;
     root["papers"] = std::move(papers);
-    root["facts"] = each(methodFacts(), [](const MethodFact& fact) {
+    root["facts"] = each(results::methodFacts(), [](const results::MethodFact& fact) {
         return json{{"name", fact.info.name}, {"unit", fact.info.unit}};
     });
     return scriptSafe(root);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

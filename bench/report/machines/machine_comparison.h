@@ -11,7 +11,7 @@
 #include "bench/report/machines/machine_remarks.h"
 #include "bench/report/machines/machine_set.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 /// Whether machines agree on a ratio of times or on a claim.
 enum class Agreement {
@@ -28,15 +28,15 @@ enum class Agreement {
 [[nodiscard]] Agreement agreementOf(const std::vector<SideRatio>& sides);
 
 /// Compares verdicts. Claims that are not tested do not count; unresolved and untestable ones are open.
-[[nodiscard]] Agreement agreementOf(const std::vector<ClaimVerdict>& verdicts);
+[[nodiscard]] Agreement agreementOf(const std::vector<claims::ClaimVerdict>& verdicts);
 
 /// A claim with its results in the folders that contain it.
 struct SharedClaim {
-    std::vector<const EvaluatedClaim*> folders;  ///< by MachineSet::folders; null if missing
+    std::vector<const claims::EvaluatedClaim*> folders;  ///< by MachineSet::folders; null if missing
     Agreement agreement = Agreement::alone;
 
     /// From any folder: the claim is the same in all.
-    [[nodiscard]] const EvaluatedClaim& any() const;
+    [[nodiscard]] const claims::EvaluatedClaim& any() const;
 };
 
 /// Sorted by paper, in the order of the paper. Points into the set.
@@ -68,4 +68,4 @@ struct MachineComparison {
 /// of one of the folders.
 std::filesystem::path writeMachinesPage(const std::filesystem::path& out, const MachineComparison& comparison);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -12,7 +12,7 @@
 #include "bench/report/machines/machine_comparison.h"
 #include "bench/report/run_groups.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 /// The properties of a made-up run.
 struct MadeRun {
@@ -22,8 +22,8 @@ struct MadeRun {
     std::string size = "64x48";
 };
 
-inline StoredRun madeRun(const MadeRun& made, const std::string& cpu) {
-    StoredRun run;
+inline results::StoredRun madeRun(const MadeRun& made, const std::string& cpu) {
+    results::StoredRun run;
     const std::string key = fmt::format(
         "method={}\nscene=plain\ndrive=straight\np.particles={}\nframes=9\nwarmup=1\nsize={}\nseed={}\n"
         "threads=0\nsync=frame\nimages=0\n",
@@ -50,10 +50,10 @@ inline StoredRun madeRun(const MadeRun& made, const std::string& cpu) {
     return run;
 }
 
-inline StoredRuns storedRuns(const std::vector<MadeRun>& made, const std::string& cpu) {
-    StoredRuns runs;
+inline results::StoredRuns storedRuns(const std::vector<MadeRun>& made, const std::string& cpu) {
+    results::StoredRuns runs;
     for (const MadeRun& one : made) {
-        StoredRun run = madeRun(one, cpu);
+        results::StoredRun run = madeRun(one, cpu);
         runs.emplace(run.runId, std::move(run));
     }
     return runs;
@@ -74,12 +74,12 @@ inline std::vector<MadeRun> session(double fogMs, double ratio, const std::vecto
 }
 
 /// The data of a folder.
-inline ReportData readFolder(StoredRuns runs) {
+inline ReportData readFolder(results::StoredRuns runs) {
     ReportData data;
     data.folder = "somewhere";
     data.writtenUtc = "2026-01-02T03:04:05Z";
     data.runs = std::move(runs);
-    std::vector<const StoredRun*> all;
+    std::vector<const results::StoredRun*> all;
     for (const auto& [id, run] : data.runs) all.push_back(&run);
     RunGroup group = makeGroup(all, {});
     group.id = "other";
@@ -87,7 +87,7 @@ inline ReportData readFolder(StoredRuns runs) {
     return data;
 }
 
-using LabelledRuns = std::pair<std::string, StoredRuns>;
+using LabelledRuns = std::pair<std::string, results::StoredRuns>;
 
 inline MachineComparison compared(const std::vector<LabelledRuns>& machines) {
     std::vector<ReportData> folders;
@@ -105,4 +105,4 @@ inline const MachineRatio& ratioOfHaze(const MachineComparison& comparison) {
     return comparison.experiments.at(0).ratios.at(0);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

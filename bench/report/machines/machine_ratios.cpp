@@ -15,13 +15,13 @@
 #include "bench/suite/suite_cells.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 using files::numberOf;
 
 /// The runs of a variant in a world on a machine.
-using Runs = std::map<std::string, std::map<std::string, const StoredRun*>>;  // by seed, then repetition
+using Runs = std::map<std::string, std::map<std::string, const results::StoredRun*>>;  // by seed, then repetition
 /// ln(of / with) by seed, then repetition.
 using LogRatios = std::map<std::string, std::map<std::string, double>>;
 /// The same by repetition, or by seed if there are several.
@@ -43,9 +43,9 @@ std::map<std::string, Group> groupsOf(const MachineSet& set) {
             group.title += !from.suite.empty() && from.id != from.suite ? " (quick)" : "";
             group.summary = from.suite.empty() ? "Runs that belong to no suite of the data folder." : from.summary;
             for (const ReportCell& cell : from.cells)
-                for (const StoredRun* run : cell.done) group.runs.insert(run->runId);
-            for (const ComparisonResult& comparison : from.comparisons)
-                for (const ColumnVerdict& column : comparison.columns)
+                for (const results::StoredRun* run : cell.done) group.runs.insert(run->runId);
+            for (const suite::ComparisonResult& comparison : from.comparisons)
+                for (const suite::ColumnVerdict& column : comparison.columns)
                     if (std::ranges::find(group.columns, column.column) == group.columns.end())
                         group.columns.push_back(column.column);
         }
@@ -53,10 +53,11 @@ std::map<std::string, Group> groupsOf(const MachineSet& set) {
 }
 
 /// The method and its own settings.
-CellIdentity variantOf(const CellIdentity& identity) {
-    CellIdentity own;
+suite::CellIdentity variantOf(const suite::CellIdentity& identity) {
+    suite::CellIdentity own;
     std::ranges::copy_if(identity, std::back_inserter(own), [](const auto& field) {
-        return field.first == "method" || (field.first.starts_with("p.") && !isOfTheWorld(field.first.substr(2)));
+        return field.first == "method" ||
+               (field.first.starts_with("p.") && !suite::isOfTheWorld(field.first.substr(2)));
     });
     return own;
 }
@@ -66,10 +67,10 @@ std::string withoutPrefix(const std::string& name) {
 }
 
 /// A time and its logarithm; empty if it is not above 0. Rates count as time per frame.
-std::optional<double> logTime(const StoredRun& run, const std::string& column) {
-    const auto number = numberIn(run, column);
+std::optional<double> logTime(const results::StoredRun& run, const std::string& column) {
+    const auto number = suite::numberIn(run, column);
     if (!number || !(*number > 0)) return std::nullopt;
-    return isRate(column) ? -std::log(*number) : std::log(*number);
+    return suite::isRate(column) ? -std::log(*number) : std::log(*number);
 }
 
 LogRatios logRatios(const Runs& of, const Runs& with, const std::string& column) {
@@ -114,13 +115,13 @@ Turns turnsOf(const LogRatios& ratios, const std::set<std::string>& seeds) {
 SideRatio evaluated(const Turns& turns) {
     std::vector<double> values;
     for (const auto& [turn, x] : turns) values.push_back(x);
-    SideRatio ratio{evaluateLogRatios(values), ""};
+    SideRatio ratio{measure::evaluateLogRatios(values), ""};
     if (turns.empty())
         ratio.reason = "not measured";
-    else if (turns.size() < minimumPairs)
+    else if (turns.size() < measure::minimumPairs)
         ratio.reason = fmt::format("{} paired {}{}, {} are needed", turns.size(),
                                    turns.begin()->first.starts_with("seed") ? "seed" : "run",
-                                   turns.size() == 1 ? "" : "s", minimumPairs);
+                                   turns.size() == 1 ? "" : "s", measure::minimumPairs);
     return ratio;
 }
 
@@ -151,30 +152,31 @@ class Measured {
     [[nodiscard]] bool isEmpty() const { return variants_.empty(); }
 
     void describe(MachineExperiment& experiment) const {
-        std::vector<CellIdentity> identities;
+        std::vector<suite::CellIdentity> identities;
         identities.reserve(variants_.size());
         for (const auto& [identity, worlds] : variants_) identities.push_back(identity);
-        const std::vector<std::string> names = distinguishingNames(identities);
-        for (const CellIdentity& identity : identities)
-            experiment.variants.push_back({valueOf(identity, "method"), labelOf(identity, names)});
+        const std::vector<std::string> names = suite::distinguishingNames(identities);
+        for (const suite::CellIdentity& identity : identities)
+            experiment.variants.push_back({suite::valueOf(identity, "method"), suite::labelOf(identity, names)});
         for (const std::string& name : varyingNames()) {
             WorldAxis axis{withoutPrefix(name), "", true, {}};
             std::set<std::string> values;
-            for (const KeyFields& world : worlds_)
-                if (std::string value = valueOf(world, name); !value.empty()) values.insert(std::move(value));
+            for (const results::KeyFields& world : worlds_)
+                if (std::string value = suite::valueOf(world, name); !value.empty()) values.insert(std::move(value));
             axis.values.assign(values.begin(), values.end());
             axis.numeric =
                 std::ranges::all_of(axis.values, [](const std::string& value) { return numberOf(value).has_value(); });
             if (axis.numeric)
                 std::ranges::sort(axis.values, {}, [](const std::string& value) { return *numberOf(value); });
-            const auto& known = worldParameterList();
+            const auto& known = suite::worldParameterList();
             if (const auto found = std::ranges::find(known, axis.name, &Parameter::name); found != known.end())
                 axis.unit = found->unit;
             experiment.axes.push_back(std::move(axis));
         }
-        for (const KeyFields& world : worlds_) {
+        for (const results::KeyFields& world : worlds_) {
             experiment.worlds.emplace_back();
-            for (const std::string& name : varyingNames()) experiment.worlds.back().push_back(valueOf(world, name));
+            for (const std::string& name : varyingNames())
+                experiment.worlds.back().push_back(suite::valueOf(world, name));
         }
     }
 
@@ -205,32 +207,33 @@ class Measured {
     }
 
  private:
-    using Worlds = std::map<KeyFields, std::map<std::size_t, Runs>, decltype(&identityLess)>;
+    using Worlds = std::map<results::KeyFields, std::map<std::size_t, Runs>, decltype(&suite::identityLess)>;
 
     void place(const MachineCell& cell) {
-        const CellIdentity variant = variantOf(cell.identity);
-        if (valueOf(variant, "method") == baselineMethod) return;
+        const suite::CellIdentity variant = variantOf(cell.identity);
+        if (suite::valueOf(variant, "method") == results::baselineMethod) return;
         for (std::size_t side = 0; side < sides_; ++side)
-            for (const StoredRun* run : cell.sides[side].done) {
-                std::optional<KeyFields> world = pairKey(*run);
+            for (const results::StoredRun* run : cell.sides[side].done) {
+                std::optional<results::KeyFields> world = results::pairKey(*run);
                 if (!world || !group_.runs.contains(run->runId)) continue;
-                const std::string seed = valueOf(*world, "seed"), repetition = valueOf(*world, "repetition");
+                const std::string seed = suite::valueOf(*world, "seed"),
+                                  repetition = suite::valueOf(*world, "repetition");
                 std::erase_if(*world,
                               [](const auto& field) { return field.first == "seed" || field.first == "repetition"; });
                 worlds_.insert(*world);
-                variants_.try_emplace(variant, Worlds(&identityLess))
+                variants_.try_emplace(variant, Worlds(&suite::identityLess))
                     .first->second[*world][side][seed]
                     .emplace(repetition, run);
             }
     }
 
-    [[nodiscard]] std::size_t indexOf(const KeyFields& world) const {
+    [[nodiscard]] std::size_t indexOf(const results::KeyFields& world) const {
         return static_cast<std::size_t>(std::distance(worlds_.begin(), worlds_.find(world)));
     }
 
     /// The fields that differ between worlds, in the order of a run's key.
     [[nodiscard]] std::vector<std::string> varyingNames() const {
-        return distinguishingNames(std::vector<CellIdentity>(worlds_.begin(), worlds_.end()));
+        return suite::distinguishingNames(std::vector<suite::CellIdentity>(worlds_.begin(), worlds_.end()));
     }
 
     [[nodiscard]] MachineRatio ratioOf(const Worlds& of, const Worlds& with, const std::string& column) const {
@@ -285,16 +288,16 @@ class Measured {
         for (const auto& [seed, repetitions] : runs) {
             values.clear();
             for (const auto& [repetition, run] : repetitions)
-                if (const auto value = numberIn(*run, column)) values.push_back(*value);
-            if (!values.empty()) medians.push_back(median(values));
+                if (const auto value = suite::numberIn(*run, column)) values.push_back(*value);
+            if (!values.empty()) medians.push_back(measure::median(values));
         }
         return runs.size() > 1 ? std::pair(medianInterval(medians), true) : std::pair(medianInterval(values), false);
     }
 
     const Group& group_;
     std::size_t sides_;
-    std::map<CellIdentity, Worlds, decltype(&identityLess)> variants_{&identityLess};
-    std::set<KeyFields, decltype(&identityLess)> worlds_{&identityLess};
+    std::map<suite::CellIdentity, Worlds, decltype(&suite::identityLess)> variants_{&suite::identityLess};
+    std::set<results::KeyFields, decltype(&suite::identityLess)> worlds_{&suite::identityLess};
 };
 
 std::size_t referenceOf(const MachineExperiment& experiment) {
@@ -319,10 +322,10 @@ std::string worldLabel(const MachineExperiment& experiment, std::size_t world) {
     return label;
 }
 
-PairedRatio inverted(const PairedRatio& ratio) {
-    PairedRatio other{ratio.pairs, 1 / ratio.ratio, 1 / ratio.high, 1 / ratio.low, ratio.verdict};
-    if (ratio.verdict == Verdict::faster) other.verdict = Verdict::slower;
-    if (ratio.verdict == Verdict::slower) other.verdict = Verdict::faster;
+measure::PairedRatio inverted(const measure::PairedRatio& ratio) {
+    measure::PairedRatio other{ratio.pairs, 1 / ratio.ratio, 1 / ratio.high, 1 / ratio.low, ratio.verdict};
+    if (ratio.verdict == measure::Verdict::faster) other.verdict = measure::Verdict::slower;
+    if (ratio.verdict == measure::Verdict::slower) other.verdict = measure::Verdict::faster;
     return other;
 }
 
@@ -343,4 +346,4 @@ std::vector<MachineExperiment> compareMachines(const MachineSet& set, const Mach
     return experiments;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -18,7 +18,7 @@
 #include "bench/report/machines/machine_set.h"
 #include "bench/report/median_interval.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 /// A setting that varies between the worlds of an experiment.
 struct WorldAxis {
@@ -35,7 +35,7 @@ struct MachineVariant {
 
 /// A ratio on one machine.
 struct SideRatio {
-    PairedRatio result;
+    measure::PairedRatio result;
     std::string reason;  ///< why there is not enough data for a verdict; otherwise empty
 };
 
@@ -76,9 +76,9 @@ struct MachineExperiment {
 [[nodiscard]] std::string worldLabel(const MachineExperiment& experiment, std::size_t world);
 
 /// `with` over `of`.
-[[nodiscard]] PairedRatio inverted(const PairedRatio& ratio);
+[[nodiscard]] measure::PairedRatio inverted(const measure::PairedRatio& ratio);
 
 /// Uses only cells whose work is the same everywhere. Experiments without a run are left out.
 [[nodiscard]] std::vector<MachineExperiment> compareMachines(const MachineSet& set, const MachineCells& cells);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

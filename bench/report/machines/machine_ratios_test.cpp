@@ -8,7 +8,7 @@
 
 #include "bench/report/machines/machine_fixture.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 using testing::ElementsAre;
@@ -20,10 +20,10 @@ constexpr double scatter = 0.01;
 
 /// s² = 6·h²/5 of six logarithms that alternate by ±h, so the half interval is t·h/√5.
 double halfInterval(double h) {
-    return studentQuantile(0.975, 5) * h / std::sqrt(5);
+    return measure::studentQuantile(0.975, 5) * h / std::sqrt(5);
 }
 
-SideRatio ratioWith(double ratio, double low, double high, Verdict verdict) {
+SideRatio ratioWith(double ratio, double low, double high, measure::Verdict verdict) {
     return {{6, ratio, low, high, verdict}, ""};
 }
 
@@ -42,14 +42,14 @@ TEST(MachineRatios, AreThoseOfPairedRunsWithinOneMachine) {
     ASSERT_THAT(ratio.worlds, SizeIs(2));
     EXPECT_EQ(worldLabel(experiment, ratio.worlds[0].world), "particles=200");
     for (const RatioRow* row : {&ratio.worlds[0], &ratio.worlds[1], &ratio.all}) {
-        const PairedRatio quick = inverted(row->sides.at(0).result), slow = inverted(row->sides.at(1).result);
+        const measure::PairedRatio quick = inverted(row->sides.at(0).result), slow = inverted(row->sides.at(1).result);
         EXPECT_NEAR(quick.ratio, 0.5, 1e-9);
         EXPECT_NEAR(quick.low, 0.5 * std::exp(-halfInterval(scatter)), 1e-9);
         EXPECT_NEAR(quick.high, 0.5 * std::exp(halfInterval(scatter)), 1e-9);
-        EXPECT_EQ(quick.verdict, Verdict::faster);
+        EXPECT_EQ(quick.verdict, measure::Verdict::faster);
         EXPECT_NEAR(slow.ratio, 2, 1e-9);
         EXPECT_NEAR(slow.high, 2 * std::exp(halfInterval(scatter)), 1e-9);
-        EXPECT_EQ(slow.verdict, Verdict::slower);
+        EXPECT_EQ(slow.verdict, measure::Verdict::slower);
         EXPECT_EQ(quick.pairs, 6u);
         EXPECT_EQ(agreementOf(row->sides), Agreement::differ);
     }
@@ -71,7 +71,7 @@ TEST(MachineRatios, DoNotDependOnTheOrderOfTheMachines) {
         for (const RatioRow& row : ratio.worlds) rows.push_back(&row);
         for (const RatioRow* row : rows)
             for (std::size_t side = 0; side < order.size(); ++side) {
-                const PairedRatio& result = row->sides[side].result;
+                const measure::PairedRatio& result = row->sides[side].result;
                 auto& list = results[comparison.set.sides[side].label];
                 list.push_back(static_cast<double>(result.pairs));
                 if (result.pairs > 0) list.insert(list.end(), {result.ratio, result.low, result.high});
@@ -90,7 +90,7 @@ TEST(MachineRatios, DoNotDependOnTheOrderOfTheMachines) {
 
 TEST(MachineRatios, OfAllTogetherRestOnTheWorldsThatEveryMachineHas) {
     // Only one machine has 1000 particles, where haze takes four times as long.
-    StoredRuns more = storedRuns(session(1, 0.5, {200}), "A");
+    results::StoredRuns more = storedRuns(session(1, 0.5, {200}), "A");
     more.merge(storedRuns(session(1, 4, {1000}), "A"));
     const auto comparison = compared({{"more", more}, {"less", storedRuns(session(1, 0.5, {200}), "B")}});
     const MachineRatio& ratio = ratioOfHaze(comparison);
@@ -104,7 +104,7 @@ TEST(MachineRatios, OfAllTogetherRestOnTheWorldsThatEveryMachineHas) {
 
 TEST(MachineRatios, OfSeveralSeedsAreOverThoseThatAllMachinesHave) {
     // On the first machine, the ratio differs for seed 3, which is missing on the other.
-    StoredRuns first, second;
+    results::StoredRuns first, second;
     for (const int seed : {1, 2, 3}) {
         first.merge(storedRuns(session(1, seed == 3 ? 9 : seed == 1 ? 0.4 : 0.6, {200}, scatter, seed), "A"));
         if (seed < 3) second.merge(storedRuns(session(1, 0.5, {200}, scatter, seed), "B"));
@@ -124,7 +124,7 @@ TEST(MachineRatios, OfSeveralSeedsAreOverThoseThatAllMachinesHave) {
 
 TEST(MachineRatios, AreNotFormedAcrossTheMachinesOfOneFolder) {
     // fog was measured on one machine, haze on another, in one folder.
-    StoredRuns mixed;
+    results::StoredRuns mixed;
     for (auto& [id, run] : storedRuns(session(1, 0.5, {200}), "A"))
         mixed.emplace(id, id.starts_with("fog") ? run : storedRuns(session(1, 0.5, {200}), "B").at(id));
     const auto comparison = compared({{"mixed", mixed}, {"whole", storedRuns(session(1, 0.5, {200}), "C")}});
@@ -144,12 +144,12 @@ TEST(MachineRatios, NeedRunsThatArePaired) {
     const auto comparison = compared({{"a", storedRuns(made, "A")}, {"b", storedRuns(session(1, 0.5, {200}), "B")}});
     const SideRatio& side = ratioOfHaze(comparison).worlds.at(0).sides[0];
     EXPECT_EQ(side.result.pairs, 3u);
-    EXPECT_EQ(side.result.verdict, Verdict::unresolved);
+    EXPECT_EQ(side.result.verdict, measure::Verdict::unresolved);
     EXPECT_EQ(side.reason, "3 paired runs, 6 are needed");
 }
 
 TEST(MachineRatios, LeaveOutWorkThatIsNotTheSame) {
-    StoredRuns other = storedRuns(session(1, 0.5), "B");
+    results::StoredRuns other = storedRuns(session(1, 0.5), "B");
     for (auto& [id, run] : other)
         if (run.parameters.at("particles") == "200") run.inputs = {{"scenes/plain.toml", "02"}};
     const auto comparison = compared({{"a", storedRuns(session(1, 0.5), "A")}, {"b", other}});
@@ -176,10 +176,10 @@ TEST(MachineRatios, StandBesideTheTimesOfEachMachine) {
 }
 
 TEST(Agreement, IsAVerdictThatAllMachinesGive) {
-    const SideRatio faster = ratioWith(0.5, 0.49, 0.51, Verdict::faster),
-                    muchFaster = ratioWith(0.1, 0.09, 0.11, Verdict::faster),
-                    slower = ratioWith(2, 1.9, 2.1, Verdict::slower),
-                    open = ratioWith(1, 0.9, 1.1, Verdict::unresolved), none = {{}, "not measured"};
+    const SideRatio faster = ratioWith(0.5, 0.49, 0.51, measure::Verdict::faster),
+                    muchFaster = ratioWith(0.1, 0.09, 0.11, measure::Verdict::faster),
+                    slower = ratioWith(2, 1.9, 2.1, measure::Verdict::slower),
+                    open = ratioWith(1, 0.9, 1.1, measure::Verdict::unresolved), none = {{}, "not measured"};
     EXPECT_EQ(agreementOf({faster, faster}), Agreement::agree);
     EXPECT_EQ(agreementOf({faster, muchFaster}), Agreement::factor);
     EXPECT_EQ(agreementOf({muchFaster, faster}), Agreement::factor);
@@ -187,7 +187,7 @@ TEST(Agreement, IsAVerdictThatAllMachinesGive) {
     EXPECT_EQ(agreementOf({faster, open}), Agreement::open);
     EXPECT_EQ(agreementOf({faster, none}), Agreement::alone);
     EXPECT_EQ(agreementOf({faster, none, faster}), Agreement::agree);
-    using enum ClaimVerdict;
+    using enum claims::ClaimVerdict;
     EXPECT_EQ(agreementOf(std::vector{confirmed, confirmed}), Agreement::agree);
     EXPECT_EQ(agreementOf(std::vector{confirmed, refuted}), Agreement::differ);
     EXPECT_EQ(agreementOf(std::vector{confirmed, depends}), Agreement::differ);
@@ -196,12 +196,12 @@ TEST(Agreement, IsAVerdictThatAllMachinesGive) {
 }
 
 TEST(Agreement, OnClaimsIsByPaperAndClaim) {
-    EvaluatedClaim claim;
+    claims::EvaluatedClaim claim;
     claim.paper = "p";
     claim.claim.id = "R1";
-    claim.result.verdict = ClaimVerdict::confirmed;
-    EvaluatedClaim other = claim, alone = claim;
-    other.result.verdict = ClaimVerdict::refuted;
+    claim.result.verdict = claims::ClaimVerdict::confirmed;
+    claims::EvaluatedClaim other = claim, alone = claim;
+    other.result.verdict = claims::ClaimVerdict::refuted;
     alone.claim.id = "R2";
     MachineSet set;
     set.folders.resize(2);
@@ -211,9 +211,9 @@ TEST(Agreement, OnClaimsIsByPaperAndClaim) {
     ASSERT_THAT(shared, SizeIs(2));
     EXPECT_EQ(shared[0].any().claim.id, "R1");
     EXPECT_EQ(shared[0].agreement, Agreement::differ);
-    EXPECT_EQ(shared[0].folders[1]->result.verdict, ClaimVerdict::refuted);
+    EXPECT_EQ(shared[0].folders[1]->result.verdict, claims::ClaimVerdict::refuted);
     EXPECT_EQ(shared[1].folders[0], nullptr);
     EXPECT_EQ(shared[1].agreement, Agreement::alone);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

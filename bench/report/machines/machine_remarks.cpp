@@ -11,7 +11,7 @@
 #include "bench/report/machines/machine_set.h"
 #include "bench/results/compared_runs.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -103,7 +103,7 @@ class Remarks {
         std::map<std::string, std::set<std::size_t>> machines;  // by method
         for (const MachineCell& cell : cells_.cells)
             for (std::size_t side = 0; side < sides(); ++side)
-                if (cell.sides[side].count() > 0) machines[valueOf(cell.identity, "method")].insert(side);
+                if (cell.sides[side].count() > 0) machines[suite::valueOf(cell.identity, "method")].insert(side);
         for (const auto& [method, on] : machines)
             if (on.size() < sides()) sayOnlyOn(fmt::format("method {}", method), on);
         methods_ = std::move(machines);
@@ -113,11 +113,11 @@ class Remarks {
         SideValues values(sides());
         for (const MachineCell& cell : cells_.cells) {
             const bool has =
-                std::ranges::find(cell.identity, name, &CellIdentity::value_type::first) != cell.identity.end();
+                std::ranges::find(cell.identity, name, &suite::CellIdentity::value_type::first) != cell.identity.end();
             // A parameter may be missing because the method has none; for other fields, missing is a value.
             if (!has && name.starts_with("p.")) continue;
             for (std::size_t side = 0; side < sides(); ++side)
-                if (cell.isDoneOn(side)) values[side].insert(valueOf(cell.identity, name));
+                if (cell.isDoneOn(side)) values[side].insert(suite::valueOf(cell.identity, name));
         }
         return values;
     }
@@ -141,9 +141,9 @@ class Remarks {
         for (std::size_t side = 0; side < sides(); ++side)
             for (const RunGroup& group : set_.folders[set_.sides[side].folder].groups)
                 for (const ReportCell& cell : group.cells)
-                    for (const StoredRun* run : cell.done)
-                        if (!group.suite.empty() &&
-                            std::ranges::binary_search(set_.sides[side].runs, run->runId, {}, &StoredRun::runId)) {
+                    for (const results::StoredRun* run : cell.done)
+                        if (!group.suite.empty() && std::ranges::binary_search(set_.sides[side].runs, run->runId, {},
+                                                                               &results::StoredRun::runId)) {
                             machines[group.id].insert(side);
                             groupsOf_[run->runId].insert(group.id);
                         }
@@ -185,10 +185,10 @@ class Remarks {
 
     void sayInvalid() {
         for (const MachineSide& side : set_.sides) {
-            std::vector<const StoredRun*> done;
-            for (const StoredRun* run : side.runs)
-                if (run->status == RunStatus::done) done.push_back(run);
-            if (const std::string said = saysInvalid(done); !said.empty())
+            std::vector<const results::StoredRun*> done;
+            for (const results::StoredRun* run : side.runs)
+                if (run->status == results::RunStatus::done) done.push_back(run);
+            if (const std::string said = results::saysInvalid(done); !said.empty())
                 result_.notes.push_back(fmt::format("{}: {}", side.label, said));
         }
     }
@@ -204,9 +204,9 @@ class Remarks {
         for (const MachineSide& side : set_.sides) {
             kinds.emplace_back(isSoftware(side) ? "a software renderer" : "a GPU");
             std::set<std::string> counts;
-            for (const StoredRun* run : side.runs)
+            for (const results::StoredRun* run : side.runs)
                 if (const auto found = run->cells.find("threads");
-                    run->status == RunStatus::done && found != run->cells.end() && !found->second.empty())
+                    run->status == results::RunStatus::done && found != run->cells.end() && !found->second.empty())
                     counts.insert(found->second);
             threads.push_back(counts.empty() ? "" : valuesText(counts));
         }
@@ -226,12 +226,12 @@ class Remarks {
 
     /// True if another sentence already explains why the cell is missing on a machine.
     [[nodiscard]] bool isExplained(const MachineCell& cell, std::size_t side) const {
-        if (!methods_.at(valueOf(cell.identity, "method")).contains(side)) return true;
+        if (!methods_.at(suite::valueOf(cell.identity, "method")).contains(side)) return true;
         for (const auto& [name, values] : settings_)
-            if (!values[side].empty() && !values[side].contains(valueOf(cell.identity, name))) return true;
+            if (!values[side].empty() && !values[side].contains(suite::valueOf(cell.identity, name))) return true;
         std::set<std::string> suites;
-        for (const CellRuns& runs : cell.sides)
-            for (const StoredRun* run : runs.done)
+        for (const suite::CellRuns& runs : cell.sides)
+            for (const results::StoredRun* run : runs.done)
                 if (const auto found = groupsOf_.find(run->runId); found != groupsOf_.end())
                     suites.insert(found->second.begin(), found->second.end());
         return !suites.empty() &&
@@ -242,11 +242,11 @@ class Remarks {
         for (const MachineCell& cell : cells_.cells) {
             MissingCell missing{cells_.labelOf(cell), {}, {}};
             for (std::size_t side = 0; side < sides(); ++side) {
-                const CellRuns& runs = cell.sides[side];
+                const suite::CellRuns& runs = cell.sides[side];
                 if (!runs.done.empty())
                     missing.on.push_back(side);
                 else if (!runs.invalid.empty())
-                    missing.lacking.emplace_back(side, "invalid: " + whyInvalid(*runs.invalid.front()));
+                    missing.lacking.emplace_back(side, "invalid: " + results::whyInvalid(*runs.invalid.front()));
                 else if (!runs.copied.empty())
                     missing.lacking.emplace_back(side, "copied from another folder");
                 else if (!runs.failed.empty())
@@ -274,4 +274,4 @@ MachineRemarks remarksOn(const MachineSet& set, const MachineCells& cells) {
     return Remarks(set, cells).make();
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -7,7 +7,7 @@
 
 #include "bench/report/machines/machine_set.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 /// A configuration that was measured on some machines but not on others.
 struct MissingCell {
@@ -31,4 +31,4 @@ struct MachineRemarks {
 
 [[nodiscard]] MachineRemarks remarksOn(const MachineSet& set, const MachineCells& cells);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -14,7 +14,7 @@
 #include "methods/kit/files/printable.h"
 #include "methods/kit/gpu/adapter.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,8 +64,8 @@ void requireLabels(const std::vector<std::string>& labels, std::size_t folders) 
 
 /// Runs that ended before they had a graphics device have no machine; they are assigned to the first one.
 MachineSide& sideOf(std::vector<MachineSide>& sides, std::size_t first,
-                    const std::vector<std::vector<std::string>>& machines, const StoredRun& run) {
-    const auto found = std::ranges::find(machines, valuesOf(run, machineFields()));
+                    const std::vector<std::vector<std::string>>& machines, const results::StoredRun& run) {
+    const auto found = std::ranges::find(machines, results::valuesOf(run, results::machineFields()));
     const auto index = found == machines.end() ? 0 : found - machines.begin();
     return sides[first + static_cast<std::size_t>(index)];
 }
@@ -73,8 +73,8 @@ MachineSide& sideOf(std::vector<MachineSide>& sides, std::size_t first,
 void addSides(const ReportData& data, std::size_t folder, const std::string& label, std::vector<MachineSide>& sides) {
     std::vector<std::vector<std::string>> machines;
     for (const auto& [id, run] : data.runs)
-        if (std::vector<std::string> values = valuesOf(run, machineFields());
-            run.status == RunStatus::done && std::ranges::find(machines, values) == machines.end())
+        if (std::vector<std::string> values = results::valuesOf(run, results::machineFields());
+            run.status == results::RunStatus::done && std::ranges::find(machines, values) == machines.end())
             machines.push_back(std::move(values));
     if (machines.empty())
         throw InputError(
@@ -87,7 +87,7 @@ void addSides(const ReportData& data, std::size_t folder, const std::string& lab
     for (const auto& [id, run] : data.runs) {
         MachineSide& side = sideOf(sides, first, machines, run);
         side.runs.push_back(&run);
-        if (run.status != RunStatus::done) continue;
+        if (run.status != results::RunStatus::done) continue;
         for (const auto& [field, value] : run.provenance)
             if (field != "key" && !value.empty()) side.facts[field].insert(value);
     }
@@ -111,9 +111,10 @@ std::string rendererOf(const MachineSide& side) {
 
 std::string commitOf(const MachineSide& side) {
     std::set<std::string> commits;
-    for (const StoredRun* run : side.runs) {
+    for (const results::StoredRun* run : side.runs) {
         const auto commit = run->provenance.find("git_commit"), dirty = run->provenance.find("git_dirty");
-        if (run->status != RunStatus::done || commit == run->provenance.end() || commit->second.empty()) continue;
+        if (run->status != results::RunStatus::done || commit == run->provenance.end() || commit->second.empty())
+            continue;
         const bool isDirty = dirty != run->provenance.end() && dirty->second == "true";
         commits.insert(commit->second.substr(0, 12) + (isDirty ? " with uncommitted changes" : ""));
     }
@@ -134,7 +135,7 @@ std::string datesOf(const MachineSide& side) {
 }
 
 std::string countsOf(const MachineSide& side) {
-    const auto done = std::ranges::count(side.runs, RunStatus::done, &StoredRun::status);
+    const auto done = std::ranges::count(side.runs, results::RunStatus::done, &results::StoredRun::status);
     return fmt::format("{} of {}", done, side.runs.size());
 }
 
@@ -142,7 +143,7 @@ std::string countsOf(const MachineSide& side) {
 std::string warningsOf(const MachineSet& set, const MachineSide& side) {
     std::vector<std::string> kinds;
     for (const RunWarnings& warnings : set.folders[side.folder].warnings) {
-        const auto count = std::ranges::count_if(side.runs, [&](const StoredRun* run) {
+        const auto count = std::ranges::count_if(side.runs, [&](const results::StoredRun* run) {
             return std::ranges::find(warnings.runs, run->runId) != warnings.runs.end();
         });
         if (count > 0)
@@ -167,11 +168,11 @@ std::string virtualText(const MachineSide& side) {
 
 /// The first input that differs from those of the cell's first run, or `state_hash`; empty if none differs.
 std::string otherWorkIn(const MachineCell& cell) {
-    const StoredRun* first = nullptr;
-    for (const CellRuns& runs : cell.sides)
-        for (const StoredRun* run : runs.done) {
+    const results::StoredRun* first = nullptr;
+    for (const suite::CellRuns& runs : cell.sides)
+        for (const results::StoredRun* run : runs.done) {
             if (!first) first = run;
-            if (std::string file = differingInput(*first, *run); !file.empty()) return file;
+            if (std::string file = results::differingInput(*first, *run); !file.empty()) return file;
             if (run->stateHash != first->stateHash) return "state_hash";
         }
     return {};
@@ -266,7 +267,7 @@ std::vector<HardwareRow> hardwareTable(const MachineSet& set) {
 
 std::size_t MachineCell::sidesDone() const {
     return static_cast<std::size_t>(
-        std::ranges::count_if(sides, [](const CellRuns& runs) { return !runs.done.empty(); }));
+        std::ranges::count_if(sides, [](const suite::CellRuns& runs) { return !runs.done.empty(); }));
 }
 
 bool MachineCells::haveSomethingInCommon() const {
@@ -275,15 +276,15 @@ bool MachineCells::haveSomethingInCommon() const {
 }
 
 MachineCells cellsOf(const MachineSet& set) {
-    std::map<CellIdentity, MachineCell, decltype(&identityLess)> found(&identityLess);
+    std::map<suite::CellIdentity, MachineCell, decltype(&suite::identityLess)> found(&suite::identityLess);
     MachineCells result;
-    std::map<std::string, std::vector<const StoredRun*>> placed;  // by run id, of previous sides
+    std::map<std::string, std::vector<const results::StoredRun*>> placed;  // by run id, of previous sides
     for (std::size_t side = 0; side < set.sides.size(); ++side) {
         std::size_t unplaced = 0, copied = 0;
-        for (const StoredRun* run : set.sides[side].runs) {
-            CellIdentity identity;
+        for (const results::StoredRun* run : set.sides[side].runs) {
+            suite::CellIdentity identity;
             try {
-                identity = identityOf(*run);
+                identity = suite::identityOf(*run);
             } catch (const InputError&) {
                 ++unplaced;
                 continue;
@@ -291,15 +292,16 @@ MachineCells cellsOf(const MachineSet& set) {
             MachineCell& cell = found[identity];
             cell.identity = std::move(identity);
             cell.sides.resize(set.sides.size());
-            std::vector<const StoredRun*>& before = placed[run->runId];
-            if (std::ranges::any_of(before,
-                                    [run](const StoredRun* other) { return areOneMeasurement(*other, *run); })) {
+            std::vector<const results::StoredRun*>& before = placed[run->runId];
+            if (std::ranges::any_of(before, [run](const results::StoredRun* other) {
+                    return results::areOneMeasurement(*other, *run);
+                })) {
                 cell.sides[side].copied.push_back(run);
                 ++copied;
                 continue;
             }
             before.push_back(run);
-            add(cell.sides[side], *run);
+            suite::add(cell.sides[side], *run);
         }
         if (copied > 0)
             result.unplaced.push_back(fmt::format("{}: {} of {} runs were copied from another folder and are left out",
@@ -308,14 +310,14 @@ MachineCells cellsOf(const MachineSet& set) {
             result.unplaced.push_back(fmt::format("{}: {} of {} runs do not record their settings (provenance.key)",
                                                   set.sides[side].label, unplaced, set.sides[side].runs.size()));
     }
-    std::vector<CellIdentity> identities;
+    std::vector<suite::CellIdentity> identities;
     for (auto& [identity, cell] : found) {
         cell.otherWork = otherWorkIn(cell);
         identities.push_back(identity);
         result.cells.push_back(std::move(cell));
     }
-    result.names = distinguishingNames(identities);
+    result.names = suite::distinguishingNames(identities);
     return result;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

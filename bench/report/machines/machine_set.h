@@ -14,13 +14,13 @@
 #include "bench/report/report_data.h"
 #include "bench/suite/regression/folder_cells.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 
 /// The runs of one machine in one folder: a column of the tables, a line in the charts.
 struct MachineSide {
-    std::string label;                   ///< that of the folder, with a number if the folder has several machines
-    std::size_t folder = 0;              ///< index in MachineSet::folders
-    std::vector<const StoredRun*> runs;  ///< sorted by id; including runs that did not complete
+    std::string label;       ///< that of the folder, with a number if the folder has several machines
+    std::size_t folder = 0;  ///< index in MachineSet::folders
+    std::vector<const results::StoredRun*> runs;  ///< sorted by id; including runs that did not complete
     /// The values of a provenance field over the completed runs: two kernels if it was updated in between.
     std::map<std::string, std::set<std::string>, std::less<>> facts;
 };
@@ -71,8 +71,8 @@ struct HardwareRow {
 
 /// A configuration measured on several machines: all of its runs, whose settings differ only in the repetition.
 struct MachineCell {
-    CellIdentity identity;
-    std::vector<CellRuns> sides;  ///< by MachineSet::sides
+    suite::CellIdentity identity;
+    std::vector<suite::CellRuns> sides;  ///< by MachineSet::sides
     /// An input that is not the same everywhere, or `state_hash`: different work was measured, and its times are not
     /// shown. Empty if the work is the same.
     std::string otherWork{};
@@ -85,7 +85,7 @@ struct MachineCells {
     std::vector<MachineCell> cells;     ///< sorted by identity, numbers numerically
     std::vector<std::string> names;     ///< the fields that distinguish cells of a method
     std::vector<std::string> unplaced;  ///< a sentence for each machine with copied runs or with runs without settings
-    [[nodiscard]] std::string labelOf(const MachineCell& cell) const { return bench::labelOf(cell.identity, names); }
+    [[nodiscard]] std::string labelOf(const MachineCell& cell) const { return suite::labelOf(cell.identity, names); }
     /// True if a cell is completed on two machines with the same work.
     [[nodiscard]] bool haveSomethingInCommon() const;
 };
@@ -93,4 +93,4 @@ struct MachineCells {
 /// Points into the set.
 [[nodiscard]] MachineCells cellsOf(const MachineSet& set);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -11,7 +11,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -30,7 +30,7 @@ std::string quoted(const std::string& text) {
 }
 
 /// The runs as a results folder that the program could have written.
-void writeRuns(const Folder& folder, const std::string& name, const StoredRuns& runs) {
+void writeRuns(const Folder& folder, const std::string& name, const results::StoredRuns& runs) {
     for (const auto& [id, run] : runs) {
         std::string summary, provenance;
         for (const auto& [column, text] : run.cells)
@@ -81,7 +81,7 @@ TEST(MachineSet, RefusesLabelsThatDoNotTellFoldersApart) {
 }
 
 TEST(MachineSet, CopiedRunsAreNoMeasurementsOfAnotherMachine) {
-    StoredRuns runs = storedRuns(session(1, 0.5, {200}), "A");
+    results::StoredRuns runs = storedRuns(session(1, 0.5, {200}), "A");
     for (auto& [id, run] : runs) run.provenance["started_utc"] = "2026-01-02T03:04:05Z";
     const MachineComparison comparison = compared({{"a", runs}, {"b", runs}});
     EXPECT_FALSE(comparison.isComparable());
@@ -109,9 +109,9 @@ TEST(MachineSet, NamesADamagedRunAndAFolderWithoutRuns) {
 }
 
 TEST(MachineRemarks, NameACellThatAMachineLacks) {
-    StoredRuns less = storedRuns(session(1, 0.5, {200}), "B");
-    StoredRun failed = madeRun({"haze", 1000, 1, 1, 1}, "B");
-    failed.status = RunStatus::failed;
+    results::StoredRuns less = storedRuns(session(1, 0.5, {200}), "B");
+    results::StoredRun failed = madeRun({"haze", 1000, 1, 1, 1}, "B");
+    failed.status = results::RunStatus::failed;
     failed.reason = "it broke";
     less.emplace(failed.runId, failed);
     const auto comparison = compared({{"more", storedRuns(session(1, 0.5), "A")}, {"less", less}});
@@ -161,12 +161,12 @@ TEST(MachineRemarks, SayThatTwoFoldersAreOfOneMachine) {
 }
 
 TEST(MachineRemarks, SayThatTheRunsOfOneMachineAreOfSeveralPrograms) {
-    StoredRuns mixed = storedRuns(session(1, 0.5), "A");
+    results::StoredRuns mixed = storedRuns(session(1, 0.5), "A");
     mixed.begin()->second.provenance["git_commit"] = "fedcba9876543210";
     // Nothing is shown of a run that did not complete, so its commit does not count.
-    StoredRuns failed = storedRuns(session(1, 0.5), "B");
+    results::StoredRuns failed = storedRuns(session(1, 0.5), "B");
     failed.begin()->second.provenance["git_commit"] = "fedcba9876543210";
-    failed.begin()->second.status = RunStatus::failed;
+    failed.begin()->second.status = results::RunStatus::failed;
     const auto comparison = compared({{"a", mixed}, {"b", failed}});
     EXPECT_THAT(comparison.remarks.notes,
                 Contains("a: its runs differ in git_commit: 0123456789abcdef, fedcba9876543210"));
@@ -174,7 +174,7 @@ TEST(MachineRemarks, SayThatTheRunsOfOneMachineAreOfSeveralPrograms) {
 }
 
 TEST(MachineRemarks, SayThatProgramsAndRenderersDiffer) {
-    StoredRuns other = storedRuns(session(1, 0.5), "B");
+    results::StoredRuns other = storedRuns(session(1, 0.5), "B");
     for (auto& [id, run] : other) {
         run.provenance["git_commit"] = "fedcba9876543210";
         run.provenance["gl_renderer"] = "llvmpipe (LLVM 15.0.6, 256 bits)";
@@ -214,4 +214,4 @@ TEST(MachinesJson, LetsNoTextBecomeMarkup) {
     EXPECT_THAT(machinesJson(comparison), Not(HasSubstr("<")));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::report

@@ -20,7 +20,7 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/whole_text.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
@@ -44,35 +44,35 @@ void addResults(const fs::path& results, Contents& contents) {
     }
 }
 
-std::string placeOf(const InputHash& input) {
+std::string placeOf(const measure::InputHash& input) {
     const fs::path file(input.file);
     if (file.is_relative()) return "inputs/" + input.file;
     return fmt::format("outside/{}-{}", input.sha256.substr(0, 12), file.filename().string());
 }
 
 /// All inputs without duplicates. Throws InputError if two runs read different versions of a file.
-std::vector<InputHash> inputsOf(const StoredRuns& runs) {
+std::vector<measure::InputHash> inputsOf(const results::StoredRuns& runs) {
     std::map<std::string, std::string> sums;
     for (const auto& [id, run] : runs)
-        for (const InputHash& input : run.inputs)
+        for (const measure::InputHash& input : run.inputs)
             if (const auto [at, isNew] = sums.emplace(input.file, input.sha256); !isNew && at->second != input.sha256)
                 throw InputError(
                     fmt::format("input '{}': the runs read different versions of it; `dustbench suite … "
                                 "--redo-outdated` repeats the outdated runs",
                                 input.file));
-    std::vector<InputHash> inputs;
+    std::vector<measure::InputHash> inputs;
     inputs.reserve(sums.size());
     for (const auto& [file, sum] : sums) inputs.push_back({file, sum});
     return inputs;
 }
 
-Json addInputs(const std::vector<InputHash>& inputs, Contents& contents) {
+Json addInputs(const std::vector<measure::InputHash>& inputs, Contents& contents) {
     Json index = Json::array();
-    for (const InputHash& input : inputs) {
+    for (const measure::InputHash& input : inputs) {
         const fs::path file = files::dataPath(input.file);  // an absolute path stays as it is
         if (file.empty() || !fs::is_regular_file(file))
             throw InputError(fmt::format("input '{}': was read by the runs but no longer exists", input.file));
-        if (sha256OfFile(file) != input.sha256)
+        if (measure::sha256OfFile(file) != input.sha256)
             throw InputError(fmt::format("input '{}': has changed since the runs read it", file.string()));
         contents.emplace(placeOf(input), file);
         index.push_back({{"file", input.file}, {"sha256", input.sha256}, {"at", placeOf(input)}});
@@ -81,7 +81,7 @@ Json addInputs(const std::vector<InputHash>& inputs, Contents& contents) {
 }
 
 /// The commands that measured the runs, without duplicates.
-std::set<std::vector<std::string>> commandsOf(const fs::path& results, const StoredRuns& runs) {
+std::set<std::vector<std::string>> commandsOf(const fs::path& results, const results::StoredRuns& runs) {
     std::set<std::vector<std::string>> commands;
     for (const auto& [id, run] : runs) {
         const Json json = Json::parse(files::wholeText(results / "runs" / id / "run.json", "a run.json"));
@@ -141,7 +141,7 @@ void addSuites(const std::set<std::vector<std::string>>& commands, Contents& con
 }
 
 Json indexHead(const std::set<std::vector<std::string>>& commands) {
-    const BuildFacts build = buildFacts();
+    const measure::BuildFacts build = measure::buildFacts();
     return {{"bundle", layout}, {"version", build.version}, {"git_commit", build.gitCommit}, {"commands", commands}};
 }
 
@@ -152,11 +152,11 @@ void writeArchive(const Contents& contents, const std::string& index, const std:
         if (name.find('\n') != std::string::npos)
             throw InputError(fmt::format("'{}': its name contains a line break", file.string()));
         tar.add(top + name, file);
-        sums += fmt::format("{}  {}\n", sha256OfFile(file, std::uintmax_t(-1)), name);
+        sums += fmt::format("{}  {}\n", measure::sha256OfFile(file, std::uintmax_t(-1)), name);
         packed.bytes += fs::file_size(file);
     }
     tar.addText(top + indexName, index);
-    sums += fmt::format("{}  {}\n", sha256(index), indexName);
+    sums += fmt::format("{}  {}\n", measure::sha256(index), indexName);
     tar.addText(top + sumsName, sums);
     packed.files = contents.size() + 2;
 }
@@ -195,7 +195,7 @@ void checkSums(const fs::path& folder, const std::string& top, const std::vector
         const auto sum = sums.find(name);
         if (sum == sums.end())
             throw InputError(fmt::format("'{}': is in the bundle but not listed in {}", name, sumsName));
-        if (sha256OfFile(folder / name, std::uintmax_t(-1)) != sum->second)
+        if (measure::sha256OfFile(folder / name, std::uintmax_t(-1)) != sum->second)
             throw InputError(fmt::format("'{}': was altered, its SHA-256 differs from that in {}", name, sumsName));
         sums.erase(sum);
     }
@@ -204,9 +204,9 @@ void checkSums(const fs::path& folder, const std::string& top, const std::vector
 
 /// Checks that the bundle contains the inputs of every run, as the run read them.
 void checkInputs(const OpenedBundle& bundle) {
-    for (const InputHash& input : inputsOf(bundle.runs)) {
+    for (const measure::InputHash& input : inputsOf(bundle.runs)) {
         const fs::path file = bundle.folder / placeOf(input);
-        if (sha256OfFile(file) != input.sha256)
+        if (measure::sha256OfFile(file) != input.sha256)
             throw InputError(fmt::format("'{}': differs from the '{}' that the runs read", placeOf(input), input.file));
     }
 }
@@ -214,12 +214,13 @@ void checkInputs(const OpenedBundle& bundle) {
 // repeating
 
 /// Settings that do not affect the state get the defaults of RunSpec.
-RunSpec specOf(const StoredRun& run) {
-    RunSpec spec = specFromKey(run);
-    const RunSpec usual;
+results::RunSpec specOf(const results::StoredRun& run) {
+    results::RunSpec spec = results::specFromKey(run);
+    const results::RunSpec usual;
     // The dust of a GPU may differ in its last bits: where it was, not where it may be now.
     if (const auto place = run.provenance.find("dust_on"); place != run.provenance.end())
-        if (const auto known = dustPlaces.find(place->second); known && *known == DustOn::gpu) spec.dustOn = *known;
+        if (const auto known = results::dustPlaces.find(place->second); known && *known == results::DustOn::gpu)
+            spec.dustOn = *known;
     spec.threads = usual.threads;
     spec.sync = usual.sync;
     spec.timed = usual.timed;
@@ -231,7 +232,7 @@ RunSpec specOf(const StoredRun& run) {
 }  // namespace
 
 PackedBundle packBundle(const fs::path& results, const fs::path& archive) {
-    const StoredRuns runs = readStoredRuns(results);
+    const results::StoredRuns runs = results::readStoredRuns(results);
     PackedBundle packed;
     Contents contents;
     addResults(results, contents);
@@ -239,7 +240,7 @@ PackedBundle packBundle(const fs::path& results, const fs::path& archive) {
     Json index = indexHead(commands);
     index["inputs"] = addInputs(inputsOf(runs), contents);
     addSuites(commands, contents, packed);
-    WholeFile whole(archive);
+    exports::WholeFile whole(archive);
     TarWriter tar(whole.temporaryPath());
     writeArchive(contents, index.dump(1) + "\n", archive.stem().string() + "/", tar, packed);
     tar.finish();
@@ -252,18 +253,18 @@ OpenedBundle openBundle(const fs::path& archive, const fs::path& below) {
     const std::string top = topOf(archive, names);
     OpenedBundle bundle{below / top, names.size(), {}};
     checkSums(bundle.folder, top, names);
-    bundle.runs = readStoredRuns(bundle.folder / "results");
+    bundle.runs = results::readStoredRuns(bundle.folder / "results");
     checkInputs(bundle);
     return bundle;
 }
 
-std::vector<ExactRun> exactRuns(const StoredRuns& runs) {
+std::vector<ExactRun> exactRuns(const results::StoredRuns& runs) {
     std::vector<ExactRun> exact;
     std::map<std::string, std::size_t> places;  // by key
     for (const auto& [id, run] : runs) {
-        if (run.status != RunStatus::done || run.stateHash.empty()) continue;
-        RunSpec spec = specOf(run);
-        const auto [place, isNew] = places.try_emplace(canonicalKey(spec), exact.size());
+        if (run.status != results::RunStatus::done || run.stateHash.empty()) continue;
+        results::RunSpec spec = specOf(run);
+        const auto [place, isNew] = places.try_emplace(results::canonicalKey(spec), exact.size());
         if (isNew) exact.push_back({{}, run.stateHash, run.methodHash, std::move(spec)});
         ExactRun& one = exact[place->second];
         if (const std::string difference = hashDifference(run, one); !difference.empty())
@@ -274,7 +275,7 @@ std::vector<ExactRun> exactRuns(const StoredRuns& runs) {
     return exact;
 }
 
-std::string hashDifference(const StoredRun& got, const ExactRun& expected) {
+std::string hashDifference(const results::StoredRun& got, const ExactRun& expected) {
     std::vector<std::string> differences;
     const auto compare = [&](const char* name, const std::string& mine, const std::string& wanted) {
         const auto shown = [](const std::string& hash) { return hash.empty() ? "none" : hash; };
@@ -286,4 +287,4 @@ std::string hashDifference(const StoredRun& got, const ExactRun& expected) {
     return fmt::format("{}", fmt::join(differences, "; "));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -19,7 +19,7 @@
 #include "bench/results/run_spec.h"
 #include "bench/results/stored_run.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 struct PackedBundle {
     std::size_t files = 0;
@@ -35,7 +35,7 @@ PackedBundle packBundle(const std::filesystem::path& results, const std::filesys
 struct OpenedBundle {
     std::filesystem::path folder;  ///< <name>/
     std::size_t files = 0;
-    StoredRuns runs;
+    results::StoredRuns runs;
 };
 
 /// Extracts the archive below the folder and verifies it. Throws InputError with the first file that is damaged,
@@ -47,14 +47,14 @@ struct OpenedBundle {
 struct ExactRun {
     std::vector<std::string> runIds;    ///< runs that are done
     std::string stateHash, methodHash;  ///< the same for all of them
-    RunSpec spec;                       ///< the minimum to repeat them: no pictures, volumes or metrics
+    results::RunSpec spec;              ///< the minimum to repeat them: no pictures, volumes or metrics
 };
 
 /// Groups the runs that are done, in the order of run ids. Throws InputError if two runs of one simulation have
 /// different hashes, or if a run has no key.
-[[nodiscard]] std::vector<ExactRun> exactRuns(const StoredRuns& runs);
+[[nodiscard]] std::vector<ExactRun> exactRuns(const results::StoredRuns& runs);
 
 /// `state_hash is 1, expected 2; method_hash …`; empty if both are the same.
-[[nodiscard]] std::string hashDifference(const StoredRun& got, const ExactRun& expected);
+[[nodiscard]] std::string hashDifference(const results::StoredRun& got, const ExactRun& expected);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

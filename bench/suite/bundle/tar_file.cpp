@@ -14,7 +14,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/machine_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace fs = std::filesystem;
 namespace {
 
@@ -121,7 +121,7 @@ class TarReader {
         const std::string folder = textIn(header.folder);
         std::string name = (folder.empty() ? "" : folder + "/") + textIn(header.name);
         if (header.type != '0') refuse(fmt::format("'{}' is not a regular file", name));
-        if (name.empty() || !isWithin(name)) refuse(fmt::format("'{}' points outside the bundle", name));
+        if (name.empty() || !results::isWithin(name)) refuse(fmt::format("'{}' points outside the bundle", name));
         if (!names_.insert(name).second) refuse(fmt::format("'{}' appears twice", name));
         return name;
     }
@@ -213,4 +213,4 @@ std::vector<std::string> extractTar(const fs::path& archive, const fs::path& fol
     return names;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

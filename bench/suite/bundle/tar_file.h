@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 /// Writes an archive, entries in the order of the calls. Call `finish` at the end.
 class TarWriter {
@@ -39,4 +39,4 @@ class TarWriter {
 /// appears twice. Files before the error have been written by then.
 std::vector<std::string> extractTar(const std::filesystem::path& archive, const std::filesystem::path& folder);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -10,7 +10,7 @@
 #include "methods/kit/files/whole_text.h"
 #include "methods/kit/testing/test_input_error.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 namespace fs = std::filesystem;
 using testing::AnyOf;
@@ -36,7 +36,7 @@ class TarFile : public testing::Test {
     [[nodiscard]] const fs::path& path() const { return folder_.path(); }
 
  private:
-    TemporaryFolder folder_;
+    results::TemporaryFolder folder_;
 };
 
 std::string randomBytes(std::size_t count, unsigned seed) {
@@ -139,4 +139,4 @@ TEST_F(TarFile, ANameThatDoesNotFitIsRefused) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -10,7 +10,7 @@
 #include "bench/results/output_files.h"
 #include "methods/kit/maths/philox.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 constexpr std::uint64_t orderSeed = 1;
@@ -20,7 +20,7 @@ std::string secondsText(double seconds) {
 }
 
 std::string sizeText(double bytes) {
-    return bytesText(static_cast<std::uint64_t>(bytes));
+    return results::bytesText(static_cast<std::uint64_t>(bytes));
 }
 
 /// Beyond the least, in proportion.
@@ -219,4 +219,4 @@ std::string LoadLadder::whyNotEvaluated(std::size_t cell, double elapsedSeconds)
     return "";
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

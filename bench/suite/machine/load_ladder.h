@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 struct LadderCell {
     std::string suite;
@@ -100,4 +100,4 @@ class LoadLadder {
     std::size_t repetitionsLeftOut_ = 0;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -7,7 +7,7 @@
 #include <functional>
 #include <set>
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 using testing::ElementsAre;
@@ -220,4 +220,4 @@ TEST(LoadLadder, RepeatsWhatRanAsLongAsTimeRemains) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -14,7 +14,7 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/toml_reader.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace fs = std::filesystem;
 namespace {
 
@@ -60,7 +60,7 @@ PlanFile readPlanFile(bool quick) {
 }
 
 /// All settings but the load and the size.
-std::string ladderOf(const RunSpec& spec, const std::string& load) {
+std::string ladderOf(const results::RunSpec& spec, const std::string& load) {
     std::string text = fmt::format("{} {} {} {}", spec.method, spec.scene, spec.drive, spec.seed);
     for (const auto& [name, value] : spec.parameters)
         if (name != load) text += fmt::format(" {}={}", name, value);
@@ -112,8 +112,8 @@ std::vector<PlacedCell> cellsOf(const MachinePlan& plan) {
     std::set<std::string> known;  // suites share runs of the null method
     for (const auto& [suite, load] : plan.suites)
         for (PlannedRun cell : withBaselines(suite).cells) {
-            const RunSpec& spec = cell.spec;
-            if (!known.insert(runId(spec)).second) continue;
+            const results::RunSpec& spec = cell.spec;
+            if (!known.insert(results::runId(spec)).second) continue;
             const auto value = spec.parameters.find(load);
             LadderCell ladder{.suite = suite.id,
                               .ladder = ladderOf(spec, load),
@@ -126,7 +126,7 @@ std::vector<PlacedCell> cellsOf(const MachinePlan& plan) {
     return cells;
 }
 
-RunNeeds needsOf(const StoredRun& run, const RunSpec& spec) {
+RunNeeds needsOf(const results::StoredRun& run, const results::RunSpec& spec) {
     const auto number = [&](const char* column) { return numberIn(run, column).value_or(0); };
     const double all = number("run_s"), fps = number("fps_avg");
     double measuring = all;
@@ -138,4 +138,4 @@ RunNeeds needsOf(const StoredRun& run, const RunSpec& spec) {
             .deviceBytes = number("gpu_bytes")};
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

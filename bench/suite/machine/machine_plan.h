@@ -12,7 +12,7 @@
 #include "bench/suite/machine/load_ladder.h"
 #include "bench/suite/suite.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 struct MachineSuite {
     Suite suite;
@@ -42,6 +42,6 @@ struct PlacedCell {
 [[nodiscard]] double loadOf(const std::string& value);
 
 /// What a run that is done took.
-[[nodiscard]] RunNeeds needsOf(const StoredRun& run, const RunSpec& spec);
+[[nodiscard]] RunNeeds needsOf(const results::StoredRun& run, const results::RunSpec& spec);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

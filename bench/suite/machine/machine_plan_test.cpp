@@ -17,7 +17,7 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/whole_text.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 TEST(MachinePlan, PlacesEachCellOfItsSuitesOnce) {
@@ -28,7 +28,7 @@ TEST(MachinePlan, PlacesEachCellOfItsSuitesOnce) {
         for (const PlacedCell& cell : cells) {
             const LadderCell& at = cell.ladder;
             places.insert(at.suite + at.ladder + std::to_string(at.load) + " " + std::to_string(at.pixels));
-            ids.insert(runId(cell.run.spec));
+            ids.insert(results::runId(cell.run.spec));
         }
         EXPECT_EQ(places.size(), cells.size());
         EXPECT_EQ(ids.size(), cells.size()) << "no run belongs to two suites";
@@ -56,9 +56,9 @@ TEST(MachinePlan, ALoadIsANumberOrTheCellsOfAGrid) {
 }
 
 TEST(MachinePlan, TellsJudgingFromMeasuring) {
-    StoredRun run;
+    results::StoredRun run;
     run.cells = {{"run_s", "10"}, {"start_s", "2"}, {"fps_avg", "20"}, {"rss_peak_bytes", "5000"}, {"gpu_bytes", "70"}};
-    RunSpec spec;
+    results::RunSpec spec;
     spec.warmup = 10;
     spec.frames = 50;
     RunNeeds needs = needsOf(run, spec);
@@ -98,11 +98,11 @@ std::vector<std::string> brokenRules(const fs::path& folder) {
     if (machine.cell(0, "build_type") != "Release") broken.emplace_back("the program was no release build");
     std::vector<std::string> problems;
     std::size_t done = 0, unsteady = 0;
-    for (const auto& [id, run] : readSummaryRuns(folder, problems)) {
-        if (run.status == RunStatus::failed) broken.push_back("failed: " + id);
-        if (run.status != RunStatus::done) continue;
+    for (const auto& [id, run] : results::readSummaryRuns(folder, problems)) {
+        if (run.status == results::RunStatus::failed) broken.push_back("failed: " + id);
+        if (run.status != results::RunStatus::done) continue;
         ++done;
-        if (std::ranges::any_of(run.warnings, saysClockFell)) ++unsteady;
+        if (std::ranges::any_of(run.warnings, measure::saysClockFell)) ++unsteady;
     }
     broken.insert(broken.end(), problems.begin(), problems.end());
     if (done == 0 || 20 * unsteady > done) broken.emplace_back("the clock fell in more than one run of twenty");
@@ -115,7 +115,7 @@ TEST(AcceptedMachines, KeepTheRules) {
 }
 
 TEST(AcceptedMachines, ABrokenRuleIsNamed) {
-    const TemporaryFolder folder;
+    const results::TemporaryFolder folder;
     const auto write = [&](const char* name, const std::string& text) { std::ofstream(folder.path() / name) << text; };
     write("summary.csv", "run_id,status,reason,repetition\na,done,,1\nb,skipped,too long,1\n");
     write("runs.csv", "run_id,key,state_hash,method_hash,warnings\na,,,,the machine is busy\n");
@@ -135,5 +135,4 @@ TEST(AcceptedMachines, ABrokenRuleIsNamed) {
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

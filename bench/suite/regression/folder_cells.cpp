@@ -10,7 +10,7 @@
 
 #include "bench/results/compared_runs.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 std::optional<double> asNumber(const std::string& text) {
@@ -31,9 +31,9 @@ bool valueLess(const std::string& a, const std::string& b) {
 
 /// Sets aside runs that are the same measurement in both folders.
 void setCopiesAside(FolderCell& cell) {
-    std::erase_if(cell.a.done, [&cell](const StoredRun* mine) {
-        const auto theirs =
-            std::ranges::find_if(cell.b.done, [mine](const StoredRun* run) { return areOneMeasurement(*mine, *run); });
+    std::erase_if(cell.a.done, [&cell](const results::StoredRun* mine) {
+        const auto theirs = std::ranges::find_if(
+            cell.b.done, [mine](const results::StoredRun* run) { return results::areOneMeasurement(*mine, *run); });
         if (theirs == cell.b.done.end()) return false;
         cell.a.copied.push_back(mine);
         cell.b.copied.push_back(*theirs);
@@ -50,16 +50,16 @@ bool identityLess(const CellIdentity& a, const CellIdentity& b) {
     });
 }
 
-void add(CellRuns& runs, const StoredRun& run) {
+void add(CellRuns& runs, const results::StoredRun& run) {
     switch (run.status) {
-        case RunStatus::done:
-            (whyInvalid(run).empty() ? runs.done : runs.invalid).push_back(&run);
+        case results::RunStatus::done:
+            (results::whyInvalid(run).empty() ? runs.done : runs.invalid).push_back(&run);
             break;
-        case RunStatus::skipped:
+        case results::RunStatus::skipped:
             runs.skipped.push_back(&run);
             break;
-        case RunStatus::failed:
-        case RunStatus::timeout:
+        case results::RunStatus::failed:
+        case results::RunStatus::timeout:
             runs.failed.push_back(&run);
             break;
     }
@@ -70,9 +70,9 @@ std::string valueOf(const CellIdentity& identity, const std::string& name) {
     return found == identity.end() ? std::string() : found->second;
 }
 
-CellIdentity identityOf(const StoredRun& run) {
+CellIdentity identityOf(const results::StoredRun& run) {
     static const std::set<std::string> leftOut{"repetition", "metrics", "metric_reference", "metric_pictures"};
-    CellIdentity identity = keyFields(run);
+    CellIdentity identity = results::keyFields(run);
     std::erase_if(identity, [](const auto& field) { return leftOut.contains(field.first); });
     return identity;
 }
@@ -136,4 +136,4 @@ std::string labelOf(const CellIdentity& identity, const std::vector<std::string>
     return label;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

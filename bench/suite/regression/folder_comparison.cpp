@@ -14,7 +14,7 @@
 #include "bench/suite/planned_evaluation.h"
 #include "bench/suite/regression/folder_cells.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 /// Why two results folders cannot be compared, and differences other than times. Each sentence is one line. Keeps
@@ -55,11 +55,11 @@ std::string quantity(std::size_t count, std::string_view what) {
 }
 
 /// The configuration's runs that are done, with the letter of their folder, A first.
-std::vector<std::pair<const StoredRun*, char>> doneRuns(const FolderCell& cell) {
-    std::vector<std::pair<const StoredRun*, char>> runs;
+std::vector<std::pair<const results::StoredRun*, char>> doneRuns(const FolderCell& cell) {
+    std::vector<std::pair<const results::StoredRun*, char>> runs;
     runs.reserve(cell.a.done.size() + cell.b.done.size());
-    for (const StoredRun* run : cell.a.done) runs.emplace_back(run, 'A');
-    for (const StoredRun* run : cell.b.done) runs.emplace_back(run, 'B');
+    for (const results::StoredRun* run : cell.a.done) runs.emplace_back(run, 'A');
+    for (const results::StoredRun* run : cell.b.done) runs.emplace_back(run, 'B');
     return runs;
 }
 
@@ -72,7 +72,7 @@ std::map<std::string, std::size_t> differencesWithin(const std::vector<FolderCel
         const auto runs = doneRuns(cell);
         std::set<std::string> sentences;
         for (const auto& [run, letter] : runs)
-            for (const FieldDifference& found : differences(*runs.front().first, *run, fields))
+            for (const results::FieldDifference& found : results::differences(*runs.front().first, *run, fields))
                 sentences.insert(fmt::format("{}: '{}' in {} and '{}' in {}", found.field, found.first,
                                              runs.front().second, found.second, letter));
         for (const std::string& sentence : sentences) ++cellCounts[sentence];
@@ -89,10 +89,11 @@ std::vector<std::string> withCounts(const std::map<std::string, std::size_t>& ce
 }
 
 void addInvalid(const ResultsSide& side, char letter, std::vector<std::string>& list) {
-    std::vector<const StoredRun*> done;
+    std::vector<const results::StoredRun*> done;
     for (const auto& [id, run] : side.runs)
-        if (run.status == RunStatus::done) done.push_back(&run);
-    if (const std::string said = saysInvalid(done); !said.empty()) list.push_back(fmt::format("{}: {}", letter, said));
+        if (run.status == results::RunStatus::done) done.push_back(&run);
+    if (const std::string said = results::saysInvalid(done); !said.empty())
+        list.push_back(fmt::format("{}: {}", letter, said));
 }
 
 void addBuildsAndWarnings(const ResultsSide& side, char letter, std::vector<std::string>& list) {
@@ -100,7 +101,7 @@ void addBuildsAndWarnings(const ResultsSide& side, char letter, std::vector<std:
     std::size_t done = 0, warned = 0;
     std::string example;
     for (const auto& [id, run] : side.runs) {
-        if (run.status != RunStatus::done) continue;
+        if (run.status != results::RunStatus::done) continue;
         ++done;
         if (const auto build = run.provenance.find("build_type");
             build != run.provenance.end() && build->second != "Release")
@@ -164,7 +165,7 @@ std::vector<std::string> FolderRemarks::obstacles() const {
         const auto runs = doneRuns(cell);
         const auto& [first, firstLetter] = runs.front();
         for (const auto& [run, letter] : runs) {
-            const std::string file = differingInput(*first, *run);
+            const std::string file = results::differingInput(*first, *run);
             if (file.empty() && run->stateHash == first->stateHash) continue;
             const std::string what = file.empty() ? fmt::format("state_hash '{}' in {} and '{}' in {}",
                                                                 first->stateHash, firstLetter, run->stateHash, letter)
@@ -178,11 +179,11 @@ std::vector<std::string> FolderRemarks::obstacles() const {
 }
 
 std::vector<std::string> FolderRemarks::machines() const {
-    return withCounts(differencesWithin(cells_, machineFields()));
+    return withCounts(differencesWithin(cells_, results::machineFields()));
 }
 
 std::vector<std::string> FolderRemarks::rest() const {
-    std::vector<std::string> list = withCounts(differencesWithin(cells_, circumstanceFields()));
+    std::vector<std::string> list = withCounts(differencesWithin(cells_, results::circumstanceFields()));
     if (std::string copied = copies(); !copied.empty()) list.push_back(std::move(copied));
     addInvalid(a_, 'A', list);
     addInvalid(b_, 'B', list);
@@ -205,7 +206,7 @@ std::vector<std::string> FolderRemarks::rest() const {
 }
 
 /// ln of the time in ms; empty without a time above 0.
-std::optional<double> logMs(const StoredRun& run, const std::string& column) {
+std::optional<double> logMs(const results::StoredRun& run, const std::string& column) {
     const auto number = numberIn(run, column);
     if (!number || !(*number > 0) || !std::isfinite(*number)) return std::nullopt;
     return isRate(column) ? std::log(1000.0) - std::log(*number) : std::log(*number);
@@ -213,7 +214,7 @@ std::optional<double> logMs(const StoredRun& run, const std::string& column) {
 
 std::vector<double> logsMs(const CellRuns& runs, const std::string& column) {
     std::vector<double> logs;
-    for (const StoredRun* run : runs.done)
+    for (const results::StoredRun* run : runs.done)
         if (const auto x = logMs(*run, column)) logs.push_back(*x);
     return logs;
 }
@@ -226,12 +227,12 @@ double geometricMean(const std::vector<double>& logs) {
 
 EvaluatedCell evaluate(const FolderCell* cell, const std::string& column, const std::vector<double>& a,
                        const std::vector<double>& b) {
-    EvaluatedCell evaluated{cell, column, geometricMean(a), geometricMean(b), compareUnpairedLogs(b, a), ""};
+    EvaluatedCell evaluated{cell, column, geometricMean(a), geometricMean(b), measure::compareUnpairedLogs(b, a), ""};
     if (a.empty() || b.empty())
         evaluated.reason = fmt::format("no time above 0 in {}", a.empty() ? "A" : "B");
     else if (!evaluated.result.hasEnough())
         evaluated.reason = fmt::format("{} and {} {}, {} of each are needed", a.size(), b.size(),
-                                       cell ? "runs" : "complete repetitions", minimumTimes);
+                                       cell ? "runs" : "complete repetitions", measure::minimumTimes);
     return evaluated;
 }
 
@@ -240,7 +241,7 @@ std::vector<double> meansOverCells(const std::vector<const FolderCell*>& cells, 
                                    const std::string& column) {
     std::map<std::string, std::pair<double, std::size_t>> sums;  // by repetition
     for (const FolderCell* cell : cells)
-        for (const StoredRun* run : (cell->*side).done)
+        for (const results::StoredRun* run : (cell->*side).done)
             if (const auto x = logMs(*run, column)) {
                 auto& [sum, count] = sums[run->cells.at("repetition")];
                 sum += *x;
@@ -288,13 +289,14 @@ FolderComparison compareFolders(const ResultsSide& a, const ResultsSide& b, cons
 
 std::string whyBroken(const FolderCell& cell) {
     if (!cell.b.failed.empty())
-        return fmt::format("{}: {}", cell.b.failed.front()->status == RunStatus::timeout ? "timed out" : "failed",
+        return fmt::format("{}: {}",
+                           cell.b.failed.front()->status == results::RunStatus::timeout ? "timed out" : "failed",
                            cell.b.failed.front()->reason);
-    return cell.b.invalid.empty() ? "" : "invalid: " + whyInvalid(*cell.b.invalid.front());
+    return cell.b.invalid.empty() ? "" : "invalid: " + results::whyInvalid(*cell.b.invalid.front());
 }
 
 bool isSlowerBy(const EvaluatedCell& evaluated, double percent) {
     return evaluated.result.hasEnough() && evaluated.result.low > 1 + percent / 100;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -12,13 +12,13 @@
 #include "bench/measure/statistics.h"
 #include "bench/suite/regression/folder_cells.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 struct EvaluatedCell {
     const FolderCell* cell = nullptr;  ///< null: all configurations together
     std::string column;                ///< of summary.csv
     double aMs = 0, bMs = 0;           ///< geometric means; NaN if none. Rates count as time per frame
-    UnpairedRatio result;              ///< of B over A
+    measure::UnpairedRatio result;     ///< of B over A
     std::string reason;                ///< why there are not enough data for a verdict; empty if there are
 };
 
@@ -48,4 +48,4 @@ struct FolderComparison {
 /// True if there are enough runs and the whole interval is above 1 + percent/100.
 [[nodiscard]] bool isSlowerBy(const EvaluatedCell& evaluated, double percent);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -14,7 +14,7 @@
 #include "methods/kit/files/csv.h"
 #include "source_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 using testing::AllOf;
@@ -23,8 +23,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-StoredRun runOf(const std::string& method, int particles, int repetition, double ms) {
-    StoredRun run;
+results::StoredRun runOf(const std::string& method, int particles, int repetition, double ms) {
+    results::StoredRun run;
     run.runId = fmt::format("{}-{}-r{}", method, particles, repetition);
     run.cells = {{"frame_ms_median", fmt::format("{}", ms)},
                  {"fps_avg", fmt::format("{}", 1000 / ms)},
@@ -41,23 +41,24 @@ StoredRun runOf(const std::string& method, int particles, int repetition, double
 }
 
 /// Two methods with two numbers of particles; times are `factor` times the normal ones, ±1 %.
-StoredRuns session(double factor, int repetitions = 6) {
-    StoredRuns runs;
+results::StoredRuns session(double factor, int repetitions = 6) {
+    results::StoredRuns runs;
     for (const char* method : {"haze", "fog"})
         for (const int particles : {1000, 200})
             for (int k = 1; k <= repetitions; ++k) {
-                const StoredRun run = runOf(method, particles, k, particles * factor * (k % 2 ? 1.01 : 0.99));
+                const results::StoredRun run = runOf(method, particles, k, particles * factor * (k % 2 ? 1.01 : 0.99));
                 runs[run.runId] = run;
             }
     return runs;
 }
 
-FolderComparison compare(StoredRuns a, StoredRuns b, bool acrossMachines = false,
+FolderComparison compare(results::StoredRuns a, results::StoredRuns b, bool acrossMachines = false,
                          const std::vector<std::string>& columns = {"frame_ms_median"}) {
     return compareFolders({"a/", std::move(a)}, {"b/", std::move(b)}, columns, acrossMachines);
 }
 
-StoredRuns with(StoredRuns runs, const std::string& id, const std::function<void(StoredRun&)>& change) {
+results::StoredRuns with(results::StoredRuns runs, const std::string& id,
+                         const std::function<void(results::StoredRun&)>& change) {
     change(runs.at(id));
     return runs;
 }
@@ -72,11 +73,11 @@ TEST(FolderComparison, FindsTheRatioOfEveryCellAndOfAllTogether) {
     ASSERT_EQ(result.evaluated.size(), 10u);
     // ±1 % alternating: s² = 6·h²/5 of the logarithms, with h half their distance.
     const double h = std::log(1.01 / 0.99) / 2;
-    const double half = studentQuantile(0.975, 10) * std::sqrt(2 * h * h / 5);
+    const double half = measure::studentQuantile(0.975, 10) * std::sqrt(2 * h * h / 5);
     for (const EvaluatedCell& evaluated : result.evaluated) {
         EXPECT_NEAR(evaluated.result.ratio, 1.1, 1e-4) << evaluated.column;
         EXPECT_NEAR(std::log(evaluated.result.high / evaluated.result.low), 2 * half, 1e-4);
-        EXPECT_EQ(evaluated.result.verdict, Verdict::slower);
+        EXPECT_EQ(evaluated.result.verdict, measure::Verdict::slower);
         EXPECT_EQ(evaluated.result.ofCount, 6u);
         EXPECT_TRUE(isSlowerBy(evaluated, 5));
         EXPECT_FALSE(isSlowerBy(evaluated, 10));
@@ -88,8 +89,8 @@ TEST(FolderComparison, FindsTheRatioOfEveryCellAndOfAllTogether) {
 
 TEST(FolderComparison, AllTogetherCountsWhatARoundHasInCommonOnce) {
     // Each round of A is slower or faster as a whole: four configurations give no more information about it than one.
-    StoredRuns a = session(1), b = session(1);
-    for (StoredRuns* runs : {&a, &b})
+    results::StoredRuns a = session(1), b = session(1);
+    for (results::StoredRuns* runs : {&a, &b})
         for (auto& [id, run] : *runs) {
             const double drift = std::stoi(run.cells.at("repetition")) % 3 == 0 ? 1.3 : 0.9;
             run.cells["frame_ms_median"] = fmt::format("{}", drift * std::stod(run.cells["frame_ms_median"]));
@@ -99,20 +100,20 @@ TEST(FolderComparison, AllTogetherCountsWhatARoundHasInCommonOnce) {
         return std::log(evaluated.result.high / evaluated.result.low);
     };
     EXPECT_NEAR(width(result.evaluated[4]), width(result.evaluated[0]), 1e-6);
-    EXPECT_EQ(result.evaluated[4].result.verdict, Verdict::unresolved);
+    EXPECT_EQ(result.evaluated[4].result.verdict, measure::Verdict::unresolved);
 }
 
 TEST(FolderComparison, TooFewRunsResolveNothingAndAreNoRegression) {
     const FolderComparison result = compare(session(1), session(3, 5));
     for (const EvaluatedCell& evaluated : result.evaluated) {
-        EXPECT_EQ(evaluated.result.verdict, Verdict::unresolved);
+        EXPECT_EQ(evaluated.result.verdict, measure::Verdict::unresolved);
         EXPECT_FALSE(isSlowerBy(evaluated, 5));
         EXPECT_THAT(evaluated.reason, HasSubstr("6 and 5"));
     }
 }
 
 TEST(FolderComparison, OtherMachinesAreAnObstacleUnlessAllowed) {
-    StoredRuns other = session(1);
+    results::StoredRuns other = session(1);
     for (auto& [id, run] : other) run.provenance["cpu"] = "Cpu 2";
     EXPECT_THAT(compare(session(1), other).obstacles,
                 ElementsAre("cpu: 'Cpu 1' in A and 'Cpu 2' in B (4 configurations)"));
@@ -122,22 +123,23 @@ TEST(FolderComparison, OtherMachinesAreAnObstacleUnlessAllowed) {
     EXPECT_THAT(allowed.remarks, Contains(HasSubstr("'Cpu 2' in B")));
     EXPECT_EQ(allowed.evaluated.size(), 5u);
     // One run from another machine in the same folder.
-    const auto mixed = with(session(1), "haze-200-r4", [](StoredRun& run) { run.provenance["build_type"] = "Debug"; });
+    const auto mixed =
+        with(session(1), "haze-200-r4", [](results::StoredRun& run) { run.provenance["build_type"] = "Debug"; });
     EXPECT_THAT(compare(mixed, session(1)).obstacles,
                 ElementsAre("build_type: 'Release' in A and 'Debug' in A (1 configuration)"));
 }
 
 TEST(FolderComparison, OtherWorkIsAnObstacleAlways) {
-    const auto other = with(session(1), "fog-200-r3", [](StoredRun& run) { run.stateHash = "another"; });
+    const auto other = with(session(1), "fog-200-r3", [](results::StoredRun& run) { run.stateHash = "another"; });
     EXPECT_THAT(
         compare(session(1), other, true).obstacles,
         ElementsAre(AllOf(HasSubstr("particles=200: the runs did different work"), HasSubstr("'another' in B"))));
-    const auto inputs = with(session(1), "fog-200-r3", [](StoredRun& run) { run.inputs[0].sha256 = "02"; });
+    const auto inputs = with(session(1), "fog-200-r3", [](results::StoredRun& run) { run.inputs[0].sha256 = "02"; });
     EXPECT_THAT(compare(inputs, session(1), true).obstacles, ElementsAre(HasSubstr("scenes/plain.toml")));
 }
 
 TEST(FolderComparison, SaysWhatTheNearestDiffersInWhereNothingIsInBoth) {
-    StoredRuns other = session(1);
+    results::StoredRuns other = session(1);
     for (auto& [id, run] : other) run.provenance["key"] += "volumes=1\n";
     EXPECT_THAT(compare(session(1), other).obstacles,
                 ElementsAre(AllOf(HasSubstr("4 configurations of 24 runs in A"), HasSubstr("differ in volumes"))));
@@ -145,17 +147,17 @@ TEST(FolderComparison, SaysWhatTheNearestDiffersInWhereNothingIsInBoth) {
 }
 
 TEST(FolderComparison, NothingIsSilent) {
-    StoredRuns a = session(1), b = session(1);
+    results::StoredRuns a = session(1), b = session(1);
     for (int k = 1; k <= 6; ++k) a.erase(fmt::format("fog-200-r{}", k));
     for (int k = 5; k <= 6; ++k) {
-        StoredRun& run = b.at(fmt::format("haze-200-r{}", k));
-        run.status = k == 5 ? RunStatus::failed : RunStatus::timeout;
+        results::StoredRun& run = b.at(fmt::format("haze-200-r{}", k));
+        run.status = k == 5 ? results::RunStatus::failed : results::RunStatus::timeout;
         run.reason = "too long";
         run.provenance.erase("cpu");  // a failed run may not have it
     }
     b.at("haze-1000-r1").warnings = {"busy"};
     for (auto& [id, run] : b)
-        if (run.status == RunStatus::done) run.provenance["compiler"] = "GNU 13";
+        if (run.status == results::RunStatus::done) run.provenance["compiler"] = "GNU 13";
     const FolderComparison result = compare(a, b);
     EXPECT_THAT(result.obstacles, IsEmpty());
     EXPECT_THAT(result.remarks, Contains("fog particles=200: only in B, 6 runs"));
@@ -166,9 +168,10 @@ TEST(FolderComparison, NothingIsSilent) {
 }
 
 TEST(FolderComparison, InvalidRunsAreLeftOutWithTheirCountAndBreakACellThatWasValid) {
-    StoredRuns a = session(1), b = session(1.001);
+    results::StoredRuns a = session(1), b = session(1.001);
     for (int k = 1; k <= 6; ++k) {
-        for (StoredRuns* runs : {&a, &b}) runs->at(fmt::format("fog-200-r{}", k)).cells["invalid"] = "clipped is 4";
+        for (results::StoredRuns* runs : {&a, &b})
+            runs->at(fmt::format("fog-200-r{}", k)).cells["invalid"] = "clipped is 4";
         b.at(fmt::format("fog-200-r{}", k)).cells["frame_ms_median"] = "9999";
     }
     const FolderComparison both = compare(a, b);
@@ -186,15 +189,15 @@ TEST(FolderComparison, InvalidRunsAreLeftOutWithTheirCountAndBreakACellThatWasVa
 }
 
 TEST(FolderComparison, ACopiedRunIsNoMeasurementOfItsOwn) {
-    const auto started = [](StoredRuns runs) {
+    const auto started = [](results::StoredRuns runs) {
         for (auto& [id, run] : runs) run.provenance["started_utc"] = "2026-01-02T03:04:05Z";
         return runs;
     };
-    const StoredRuns a = started(session(1));
+    const results::StoredRuns a = started(session(1));
     EXPECT_THAT(compare(a, a).obstacles, ElementsAre(HasSubstr("24 runs of B are copied from A")));
     // Measured in the same second, with different numbers.
     EXPECT_THAT(compare(a, started(session(1.001))).obstacles, IsEmpty());
-    StoredRuns b = started(session(1.1));
+    results::StoredRuns b = started(session(1.1));
     for (int k = 1; k <= 6; ++k) b[fmt::format("fog-200-r{}", k)] = a.at(fmt::format("fog-200-r{}", k));
     const FolderComparison some = compare(a, b);
     EXPECT_THAT(some.obstacles, IsEmpty());
@@ -204,7 +207,7 @@ TEST(FolderComparison, ACopiedRunIsNoMeasurementOfItsOwn) {
 }
 
 TEST(FolderComparison, AnotherQuotaOrEnvironmentIsSaid) {
-    StoredRuns b = session(1.001);
+    results::StoredRuns b = session(1.001);
     for (auto& [id, run] : b) {
         run.provenance["quota_cores"] = "0.5";
         run.provenance["environment"] = "LP_NUM_THREADS=2";
@@ -243,10 +246,9 @@ TEST(FolderComparison, EveryColumnOfTheCsvIsDescribed) {
 }
 
 TEST(FolderComparison, RefusesARunThatDoesNotSayWhatItWas) {
-    const auto broken = with(session(1), "fog-200-r3", [](StoredRun& run) { run.provenance.erase("key"); });
+    const auto broken = with(session(1), "fog-200-r3", [](results::StoredRun& run) { run.provenance.erase("key"); });
     EXPECT_THROW((void)compare(broken, session(1)), InputError);
 }
 
 }  // namespace
-
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

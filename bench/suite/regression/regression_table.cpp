@@ -6,11 +6,11 @@
 
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 namespace {
 
 std::string verdictText(const EvaluatedCell& evaluated) {
-    return std::string(verdictName(evaluated.result.verdict)) +
+    return std::string(measure::verdictName(evaluated.result.verdict)) +
            (evaluated.reason.empty() ? "" : ": " + evaluated.reason);
 }
 
@@ -82,13 +82,13 @@ std::string comparisonCsv(const FolderComparison& comparison, std::optional<doub
     for (const EvaluatedCell& evaluated : comparison.evaluated) {
         std::vector<std::string> row{evaluated.column, evaluated.cell ? "0" : "1"};
         identityCells(evaluated.cell, row);
-        const UnpairedRatio& result = evaluated.result;
+        const measure::UnpairedRatio& result = evaluated.result;
         for (const double value : {evaluated.aMs, evaluated.bMs, result.ratio, result.low, result.high})
             row.push_back(files::csvNumber(value));
         for (const std::size_t count : {result.withCount, result.ofCount}) row.push_back(fmt::format("{}", count));
         for (const auto side : {&FolderCell::a, &FolderCell::b})
             row.push_back(evaluated.cell ? fmt::format("{}", (evaluated.cell->*side).failed.size()) : "");
-        row.emplace_back(verdictName(result.verdict));
+        row.emplace_back(measure::verdictName(result.verdict));
         row.push_back(evaluated.reason);
         row.emplace_back(percent ? (isSlowerBy(evaluated, *percent) ? "1" : "0") : "");
         addRow(row);
@@ -145,4 +145,4 @@ std::string comparisonMarkdown(const FolderComparison& comparison, std::string_v
            head + rows + "\n</details>\n";
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

@@ -10,7 +10,7 @@
 #include "bench/suite/regression/folder_comparison.h"
 #include "bench/suite/suite_table.h"
 
-namespace dustbench::bench {
+namespace dustbench::suite {
 
 [[nodiscard]] TextRows tabulate(const FolderComparison& comparison);
 
@@ -27,4 +27,4 @@ namespace dustbench::bench {
 [[nodiscard]] std::string comparisonMarkdown(const FolderComparison& comparison, std::string_view a, std::string_view b,
                                              const std::function<bool(const EvaluatedCell&)>& isRegression);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::suite

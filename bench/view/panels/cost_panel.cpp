@@ -8,7 +8,7 @@
 #include "bench/measure/statistics.h"
 #include "bench/view/panels/panel_canvas.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 /// By stage. Colour-blind readers can distinguish them.
@@ -52,7 +52,7 @@ void showRow(std::initializer_list<std::string> cells) {
 void showPercentiles(const Viewer& viewer) {
     if (!beginTable("percentiles", 4)) return;
     const auto row = [](const char* name, const std::vector<double>& values) {
-        const auto text = [&values](double p) { return fmt::format("{:.1f}", quantile(values, p)); };
+        const auto text = [&values](double p) { return fmt::format("{:.1f}", measure::quantile(values, p)); };
         showRow({name, text(0.5), text(0.95), text(0.99)});
     };
     showRow({"ms", "median", "p95", "p99"});
@@ -109,7 +109,7 @@ void showStages(const Viewer& viewer, const std::vector<std::size_t>& halves) {
         std::array<std::string, 2> medians;
         for (const std::size_t half : halves) {
             const auto values = valuesOver(viewer, [&](const FrameCost& f) { return stageOf(f.halves[half], stage); });
-            if (std::ranges::max(values) > 0) medians[half] = fmt::format("{:.2f}", median(values));
+            if (std::ranges::max(values) > 0) medians[half] = fmt::format("{:.2f}", measure::median(values));
         }
         if (medians[0].empty() && medians[1].empty()) continue;
         ImGui::TableNextColumn();
@@ -130,7 +130,7 @@ void showTimes(const Viewer& viewer, WidgetMap& widgets) {
     const double scaleMs = stackScaleMs(viewer);
     for (const std::size_t half : halves) {
         showRemark(fmt::format("{}: stages stacked, scale {:.1f} ms, slowest frame {:.1f} ms{}", half == 0 ? "A" : "B",
-                               scaleMs, maximum(totalsOf(viewer, half)),
+                               scaleMs, measure::maximum(totalsOf(viewer, half)),
                                viewer.session().isSinceStart(half == 0 ? Half::a : Half::b)
                                    ? ""
                                    : "; started later, press Restart to see it as in a run"));
@@ -147,11 +147,11 @@ std::string titleOf(const Viewer& viewer) {
     if (viewer.costs().empty()) return title;
     for (const std::size_t half : halvesOf(viewer))
         title += fmt::format("{} {} {:.1f} ms", half == 0 ? ":" : ",", half == 0 ? "A" : "B",
-                             median(totalsOf(viewer, half)));
+                             measure::median(totalsOf(viewer, half)));
     return title;
 }
 
-void showMemoryOf(const MethodHost& host, const char* half) {
+void showMemoryOf(const run::MethodHost& host, const char* half) {
     if (!beginTable((std::string("memory of ") + half).c_str(), 3)) return;
     showRow({half, "CPU MB", "GPU MB"});
     for (const MemoryUse& use : host.method().memory()) showRow({use.structure, inMegabytes(use.cpuBytes), ""});
@@ -174,7 +174,7 @@ bool isOpen(const std::string& title, const std::string& name, WidgetMap& widget
 double stackScaleMs(const Viewer& viewer) {
     double scaleMs = 1e-3;
     for (const std::size_t half : halvesOf(viewer))
-        scaleMs = std::max(scaleMs, 1.25 * quantile(totalsOf(viewer, half), 0.95));
+        scaleMs = std::max(scaleMs, 1.25 * measure::quantile(totalsOf(viewer, half), 0.95));
     return scaleMs;
 }
 
@@ -185,4 +185,4 @@ void showCosts(const Viewer& viewer, WidgetMap& widgets) {
         if (viewer.session().hasHost(half)) showMemoryOf(viewer.session().host(half), half == Half::a ? "A" : "B");
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

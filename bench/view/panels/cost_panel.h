@@ -6,7 +6,7 @@
 #include "bench/view/panels/panel_canvas.h"
 #include "bench/view/viewer.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 /// Milliseconds at the full height of both halves' charts: 1.25 times the slower half's 95th percentile, so that one
 /// slow frame does not flatten the others.
@@ -15,4 +15,4 @@ namespace dustbench::bench {
 /// Sections `Costs` and `Memory`.
 void showCosts(const Viewer& viewer, WidgetMap& widgets);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -10,7 +10,7 @@
 #include "bench/world/world.h"
 #include "methods/kit/files/data_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 using ::testing::HasSubstr;
@@ -20,7 +20,7 @@ std::string sceneOf(const MethodInfo& method) {
     std::vector<std::string> scenes = files::listData("scenes", ".toml");
     scenes.insert(scenes.begin(), ViewState().scene);
     for (const std::string& scene : scenes) {
-        const World world(scene, "", ParameterValues(worldParameters()), 1);
+        const world::World world(scene, "", ParameterValues(world::worldParameters()), 1);
         if (!method.cannotTake || method.cannotTake(world.scene()).empty()) return scene;
     }
     return "";
@@ -105,7 +105,7 @@ TEST_F(EveryWidget, EveryRealParameterOfAMethodGoesToBothEnds) {
             for (const float share : {0.0f, 1.0f}) {
                 slide(widget, share);
                 const double end = share == 0 ? parameter.minimum : parameter.maximum;
-                const ParameterTexts set = viewer_->state().a.parameters;
+                const results::ParameterTexts set = viewer_->state().a.parameters;
                 const auto given = set.find(parameter.name);
                 const double now = std::stod(given == set.end() ? parameter.initial : given->second);
                 EXPECT_TRUE(std::abs(now - end) <= 0.02 * (parameter.maximum - parameter.minimum) ||
@@ -184,4 +184,4 @@ TEST_F(EveryWidget, AWindowMayHaveNoAreaAndChangeWhileItDraws) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -14,7 +14,7 @@
 #include "bench/view/panels/panels_fixture.h"
 #include "source_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 constexpr double sameFlip = 0.01;
@@ -43,13 +43,14 @@ void expectGolden(const pictures::Image& displayed, const std::string& name) {
     const pictures::Image reference = pictures::readImage(goldenFile(name));
     ASSERT_EQ(picture.width, reference.width) << name;
     ASSERT_EQ(picture.height, reference.height) << name;
-    const Measured difference = flip(preparePicture(reference, "golden"), preparePicture(picture, "drawn"));
+    const measure::Measured difference =
+        measure::flip(measure::preparePicture(reference, "golden"), measure::preparePicture(picture, "drawn"));
     if (*difference.value <= sameFlip) return;
     const std::filesystem::path folder = std::filesystem::temp_directory_path() / "dustbench_golden";
     std::filesystem::create_directories(folder);
     pictures::writeImage(picture, folder / (name + ".png"));
     pictures::writeImage(reference, folder / (name + "_golden.png"));
-    pictures::writeImage(heatMap(difference.map), folder / (name + "_flip.png"));
+    pictures::writeImage(measure::heatMap(difference.map), folder / (name + "_flip.png"));
     ADD_FAILURE() << name << ": FLIP is " << *difference.value << ", allowed " << sameFlip << "; see " << folder
                   << ", and `make golden` if it is meant";
 }
@@ -95,4 +96,4 @@ TEST_F(GoldenPictures, OfThePanel) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

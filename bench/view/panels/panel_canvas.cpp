@@ -8,7 +8,7 @@
 
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 constexpr const char* fontFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
@@ -196,4 +196,4 @@ bool showSwitch(const char* label, bool& on, WidgetMap& widgets) {
     return changed;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -19,7 +19,7 @@
 #include "methods/kit/gpu/framebuffer.h"
 #include "methods/kit/gpu/texture.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 /// Input of a frame: the keys and buttons that are held, and the text typed since the last frame.
 struct PanelInput {
@@ -124,4 +124,4 @@ bool showSlider(const char* label, float& value, float minimum, float maximum, c
                 bool logarithmic = false);
 bool showSwitch(const char* label, bool& on, WidgetMap& widgets);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -13,7 +13,7 @@
 #include "methods/kit/draw/read_back.h"
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 inline constexpr int width = 900, height = 700;
 
@@ -97,4 +97,4 @@ inline double brightShare(const pictures::Image& image, int left, int right) {
     return bright / all;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

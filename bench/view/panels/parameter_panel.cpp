@@ -9,7 +9,7 @@
 #include "bench/view/panels/panel_canvas.h"
 #include "methods/kit/files/csv.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 /// Sliders are logarithmic if the range spans this many powers of ten.
@@ -118,4 +118,4 @@ std::optional<std::string> ParameterPanel::type(const Parameter& parameter, cons
     return text;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

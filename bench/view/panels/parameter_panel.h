@@ -9,7 +9,7 @@
 #include "bench/view/panels/panel_canvas.h"
 #include "methods/contract/parameters.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 /// A parameter whose value was changed by hand.
 struct ParameterEdit {
@@ -39,4 +39,4 @@ class ParameterPanel {
     std::string typed_;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -8,7 +8,7 @@
 
 #include "bench/view/panels/panel_canvas.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 std::string number(const std::optional<double>& value, int digits) {
@@ -30,7 +30,7 @@ std::string labelOf(Shown shown) {
 }
 
 /// The metrics of this frame, named as in reports/METRICS.md.
-void showNumbers(const MetricValues& metrics) {
+void showNumbers(const measure::MetricValues& metrics) {
     if (!beginTable("numbers", 3)) return;
     const auto row = [](const std::string& name, const std::string& whole, const std::string& masked) {
         for (const std::string* cell : {&name, &whole, &masked}) {
@@ -173,4 +173,4 @@ void PicturePanel::showExact(Viewer& viewer, WidgetMap& widgets) {
                            exact.seconds()));
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

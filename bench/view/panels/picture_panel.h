@@ -9,7 +9,7 @@
 #include "bench/view/panels/panel_canvas.h"
 #include "bench/view/viewer.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 class PicturePanel {
  public:
@@ -32,4 +32,4 @@ class PicturePanel {
     std::optional<PanelInput> before_;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -13,7 +13,7 @@
 #include "methods/kit/draw/read_back.h"
 #include "methods/kit/files/data_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 constexpr const char* none = "(none)";
@@ -29,13 +29,13 @@ std::vector<std::string> with(std::string first, std::vector<std::string> others
     return others;
 }
 
-ParameterValues valuesOf(const ParameterSet& declared, const ParameterTexts& given) {
+ParameterValues valuesOf(const ParameterSet& declared, const results::ParameterTexts& given) {
     ParameterValues values(declared);
     for (const auto& [name, value] : given) values.set(name, value);
     return values;
 }
 
-void edit(ParameterTexts& given, const ParameterEdit& change) {
+void edit(results::ParameterTexts& given, const ParameterEdit& change) {
     if (change.text)
         given[change.name] = *change.text;
     else
@@ -108,7 +108,7 @@ void ViewerPanels::showHalf(Viewer& viewer, Half half) {
     const bool isA = half == Half::a;
     const bool has = viewer.session().has(half);
     ViewState state = viewer.state();
-    const std::string now = has ? bench::half(state, half).method : none;
+    const std::string now = has ? view::half(state, half).method : none;
     const auto chosen =
         showList(isA ? "A" : "B", now, isA ? methodIds() : with(none, with(exactPicture, methodIds())), widgets_);
     if (!chosen) return;
@@ -167,8 +167,8 @@ void ViewerPanels::showTime(Viewer& viewer) {
     change("Scene", state.scene, "", scenes);
     change("Drive", state.drive, "(scene default)", drives);
     std::string camera =
-        state.cameraPath.empty() ? valuesOf(worldParameters(), state.world).choice("camera") : "custom";
-    if (const auto chosen = showList("Camera", camera, cameraKinds.words(), widgets_)) {
+        state.cameraPath.empty() ? valuesOf(world::worldParameters(), state.world).choice("camera") : "custom";
+    if (const auto chosen = showList("Camera", camera, world::cameraKinds.words(), widgets_)) {
         state.world["camera"] = *chosen;
         state.cameraPath.clear();
         viewer.apply(state);
@@ -178,7 +178,7 @@ void ViewerPanels::showTime(Viewer& viewer) {
 void ViewerPanels::showParameters(Viewer& viewer) {
     ViewState state = viewer.state();
     const auto section = [&](const char* title, ParameterPanel& panel, const ParameterSet& declared,
-                             ParameterTexts& given) {
+                             results::ParameterTexts& given) {
         const bool open = ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
         widgets_.note(title);
         if (!open) return;
@@ -190,7 +190,7 @@ void ViewerPanels::showParameters(Viewer& viewer) {
     section("Parameters of A", ofA_, findMethod(state.a.method).parameters, state.a.parameters);
     if (viewer.session().hasHost(Half::b))
         section("Parameters of B", ofB_, findMethod(state.b->method).parameters, state.b->parameters);
-    section("World (changes restart it)", ofWorld_, worldParameters(), state.world);
+    section("World (changes restart it)", ofWorld_, world::worldParameters(), state.world);
 }
 
 void ViewerPanels::showFiles(Viewer& viewer) {
@@ -275,4 +275,4 @@ pictures::Image panelPicture(const ViewState& state, const SplitSettings& split,
     return picture;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

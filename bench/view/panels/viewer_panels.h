@@ -11,7 +11,7 @@
 #include "bench/view/viewer.h"
 #include "methods/kit/pictures/image.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 class ViewerPanels {
  public:
@@ -58,4 +58,4 @@ class ViewerPanels {
 /// InputError for a state that cannot be shown, or without OpenGL.
 [[nodiscard]] pictures::Image panelPicture(const ViewState& state, const SplitSettings& split, int width, int height);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

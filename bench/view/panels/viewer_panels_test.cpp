@@ -13,7 +13,7 @@
 #include "bench/world/world.h"
 #include "methods/contract/registry.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 using testing::HasSubstr;
@@ -47,7 +47,7 @@ TEST_F(Panels, ShowThePictureAsItIs) {
 TEST_F(Panels, EverySliderAndSwitchOfAMethodChangesItsParameter) {
     int tried = 0;
     for (const MethodInfo& method : methods()) {
-        const World plain("plain", "", ParameterValues(worldParameters()), 1);
+        const world::World plain("plain", "", ParameterValues(world::worldParameters()), 1);
         if (method.cannotTake && !method.cannotTake(plain.scene()).empty()) continue;
         open(method.id, "");
         for (const Parameter& parameter : method.parameters.all()) {
@@ -377,4 +377,4 @@ TEST_F(Panels, FitWindowsFromTinyToFourThousandPixels) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -22,7 +22,7 @@
 #include "bench/view/window_settings.h"
 #include "methods/contract/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 constexpr float fontPixels = 15;  ///< on a display of 96 dots per inch
@@ -171,12 +171,12 @@ struct DestroyWindow {
 };
 using WindowOwner = std::unique_ptr<GLFWwindow, DestroyWindow>;
 
-WindowOwner createWindow(const ImageSize& size) {
+WindowOwner createWindow(const results::ImageSize& size) {
     return WindowOwner(glfwCreateWindow(size.width, size.height, "dustbench view", nullptr, nullptr));
 }
 
 /// Creates a window whose context reports its loss, if the driver supports that.
-WindowOwner openWindow(const ImageSize& size) {
+WindowOwner openWindow(const results::ImageSize& size) {
     glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
@@ -198,7 +198,7 @@ WindowOwner openWindow(const ImageSize& size) {
 class Loop {
  public:
     Loop(GLFWwindow* window, const ViewState& state, const std::filesystem::path& folder,
-         const ExecutionOptions& execution, SettingsKeeper& settings)
+         const run::ExecutionOptions& execution, SettingsKeeper& settings)
         : window_(window),
           isInterrupted_(execution.interrupted),
           settings_(settings),
@@ -248,7 +248,7 @@ class Loop {
     }
     /// The window's size as it must be requested: where GLFW counts sizes in pixels, it multiplies a requested size by
     /// the display's scale.
-    [[nodiscard]] ImageSize unscaledSize() const {
+    [[nodiscard]] results::ImageSize unscaledSize() const {
         int width = 0, height = 0, pixels = 0, rows = 0;
         glfwGetWindowSize(window_, &width, &height);
         glfwGetFramebufferSize(window_, &pixels, &rows);
@@ -269,7 +269,7 @@ class Loop {
     }
     void keepSettings() {
         WindowSettings now = settings_.read();
-        if (const ImageSize size = unscaledSize(); size.width > 0 && size.height > 0) now.size = size;
+        if (const results::ImageSize size = unscaledSize(); size.width > 0 && size.height > 0) now.size = size;
         now.keepsPace = viewer_.keepsPace;
         now.showsPanels = viewer_.showsPanels;
         now.divider = viewer_.split.divider;
@@ -295,7 +295,7 @@ class Loop {
         return target_.fit(width, height);
     }
     void frame() {
-        const std::int64_t now = steadyNow();
+        const std::int64_t now = measure::steadyNow();
         reported_.input.seconds = before_ == 0 ? 1.0 / 60 : std::max(1e-6, static_cast<double>(now - before_) / 1e9);
         before_ = now;
         viewer_.advance();
@@ -339,11 +339,11 @@ class Loop {
 
 }  // namespace
 
-void showWindow(const ViewState& state, const std::filesystem::path& folder, const ExecutionOptions& execution) {
+void showWindow(const ViewState& state, const std::filesystem::path& folder, const run::ExecutionOptions& execution) {
     const Library library;
     SettingsKeeper settings(windowSettingsFile());
     const WindowOwner window = openWindow(settings.read().size);
     Loop(window.get(), state, folder, execution, settings).run();
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

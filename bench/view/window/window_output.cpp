@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace dustbench::bench {
+namespace dustbench::view {
 namespace {
 
 std::vector<std::uint8_t> bytesOf(const gpu::Texture& texture) {
@@ -48,4 +48,4 @@ void WindowOutput::copy(PanelTarget& target) {
     copy_.framebuffer().copyToWindow();
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

@@ -11,7 +11,7 @@
 
 struct GLFWwindow;
 
-namespace dustbench::bench {
+namespace dustbench::view {
 
 class WindowOutput {
  public:
@@ -38,4 +38,4 @@ class WindowOutput {
     gpu::CurrentContext drawing_;  ///< of device()
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::view

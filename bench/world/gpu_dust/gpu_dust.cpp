@@ -19,7 +19,7 @@
 #include "methods/kit/gpu/sort/scan.h"
 #include "methods/kit/particles/step.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 namespace shaders = bench_gpu_dust_shaders;
@@ -295,4 +295,4 @@ MemoryReport GpuDust::memory() const {
     return report;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -20,7 +20,7 @@
 #include "methods/kit/particles/particle_store.h"
 #include "methods/kit/particles/particle_system.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 class GpuDust {
  public:
@@ -46,4 +46,4 @@ class GpuDust {
     std::unique_ptr<State> state_;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

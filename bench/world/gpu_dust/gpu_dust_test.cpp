@@ -11,7 +11,7 @@
 #include "methods/kit/gpu/faulty_driver.h"
 #include "methods/kit/particles/test_world.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 using particles::test::drivingStraight;
@@ -177,4 +177,4 @@ TEST(GpuDust, NamesThePartWithoutAShader) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -12,7 +12,7 @@
 #include "methods/kit/maths/turbulence.h"
 #include "methods/kit/particles/part_parameters.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 namespace {
 
 using particles::Part;
@@ -194,4 +194,4 @@ StepValues stepValues(const PartList& parts, const particles::Step& step, const 
     return values;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -11,7 +11,7 @@
 
 #include "methods/kit/particles/part_list.h"
 
-namespace dustbench::bench {
+namespace dustbench::world {
 
 inline constexpr std::size_t maximumEmitters = 4, maximumForces = 16;
 
@@ -44,4 +44,4 @@ struct StepValues {
                                     const particles::Births& births, std::span<const particles::Emitter> emitters,
                                     std::uint64_t firstSerial);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::world

@@ -1,9 +1,9 @@
+#include "methods/kit/octree/lattice.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
-
-#include "methods/kit/octree/lattice.h"
 
 namespace dustbench::octree {
 namespace {

@@ -1,3 +1,5 @@
+#include "methods/kit/octree/octree_dust.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +14,6 @@
 #include "methods/contract/errors.h"
 #include "methods/contract/volume.h"
 #include "methods/kit/octree/map_builder_test_tree.h"
-#include "methods/kit/octree/octree_dust.h"
 #include "methods/kit/octree/particle_cells.h"
 #include "methods/kit/testing/test_moment.h"
 

@@ -1,10 +1,11 @@
 // Tests that particles bounce on the contents of a scene: ground, solids, and the moving vehicle.
+#include "methods/kit/particles/scene_surface.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "methods/kit/particles/scene_surface.h"
 #include "methods/kit/particles/test_world.h"
 
 namespace dustbench::particles {

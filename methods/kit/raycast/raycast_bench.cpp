@@ -1,6 +1,6 @@
 // Benchmarks ray casting of a plume and of a trail: upload and march separately. The CPU march includes the readback of
 // the scene's depths.
-#include "methods/kit/raycast/raycast_bench_world.h"
+#include "methods/kit/raycast/raycast_bench_scene.h"
 
 namespace dustbench::raycast {
 namespace {

@@ -1,10 +1,11 @@
+#include "methods/kit/raycast/transfer_function.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "methods/kit/raycast/raycast_settings.h"
 #include "methods/kit/raycast/shown_grid.h"
-#include "methods/kit/raycast/transfer_function.h"
 #include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::raycast {

@@ -1,5 +1,7 @@
 // Tests that files written by OpenVDB's own functions are read with all their points, at any position; and small files
 // that would need much memory: a box of many cells, leaves that unpack to far more than the file.
+#include "methods/kit/volumes/vdb_process.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
@@ -11,7 +13,6 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/testing/test_folder.h"
 #include "methods/kit/testing/test_input_error.h"
-#include "methods/kit/volumes/vdb_process.h"
 #include "methods/kit/volumes/volume_file.h"
 #include "source_folder.h"
 

@@ -1,7 +1,7 @@
 // Benchmarks the march, the upload and the memory of sparse volumes, on the scenes and pictures of the benchmarks of
 // dense volumes (kit/raycast/raycast_bench.cpp) and of NanoVDB's own march (kit/raycast/peers). Measure those in the
 // same session.
-#include "methods/kit/raycast/raycast_bench_world.h"
+#include "methods/kit/raycast/raycast_bench_scene.h"
 #include "methods/volume/sparse/sparse_picture.h"
 #include "methods/volume/sparse/sparse_test_grid.h"
 

@@ -10,7 +10,6 @@
 #include "tests/one_kit/foreign_method.h"
 
 namespace dustbench::one_kit {
-
 namespace {
 
 const ForeignMethod& foreign() {

@@ -4,6 +4,8 @@
 // The column Time is the median of repetitions after a warm-up, by timer queries where they are true (not on llvmpipe),
 // else until the GPU has finished; the counters are medians of its steps, each timed alone: keys (world and cells),
 // sort, levels (runs of particles, and their reduction) and list, in ms. The voxels are verified before they are timed.
+#include "methods/kit/octree/gpu/gpu_octree.h"
+
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -16,7 +18,6 @@
 #include <vector>
 
 #include "methods/kit/gpu/queue_marks.h"
-#include "methods/kit/octree/gpu/gpu_octree.h"
 #include "methods/kit/octree/gpu/gpu_octree_dust.h"
 #include "methods/kit/octree/map_builder_test_tree.h"
 #include "methods/kit/particles/particle_store.h"

@@ -7,7 +7,7 @@
 #include <nanovdb/util/SampleFromVoxels.h>
 
 #include "methods/kit/parallel/for_each_block.h"
-#include "methods/kit/raycast/raycast_bench_world.h"
+#include "methods/kit/raycast/raycast_bench_scene.h"
 #include "methods/kit/raycast/shown_grid.h"
 
 namespace dustbench::raycast {
