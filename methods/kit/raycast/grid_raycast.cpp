@@ -47,6 +47,8 @@ SceneDepths SceneDepthCopy::depths() {
     return {values_, layer_.width(), layer_.height()};
 }
 
+GridRenderer::~GridRenderer() = default;
+
 void GridRenderer::take(const ShownTextures&, const BricksOnGpu&, const LightOnGpu*) {
     throw std::logic_error("this renderer does not take textures");
 }

@@ -49,9 +49,9 @@ class DUSTBENCH_API SceneDepthCopy {
 struct Beside {};
 
 /// The interface of all techniques; GridRaycast creates one of them.
-class GridRenderer {
+class DUSTBENCH_API GridRenderer {
  public:
-    virtual ~GridRenderer() = default;
+    virtual ~GridRenderer();
 
     /// `light`: null if the cloud casts no shadow on itself. `light` and `bricks` must outlive all draws of this grid.
     virtual void upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light) = 0;
