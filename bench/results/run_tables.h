@@ -1,4 +1,4 @@
-// A folder of tables alone, whose `runs` were not kept: summary.csv, with machine.csv and runs.csv beside it.
+// A folder with only the tables of a result: summary.csv, machine.csv and runs.csv, without `runs`.
 //
 // Such runs have cells and parameters; from the single row of machine.csv the machine, driver and build; from runs.csv
 // the settings, hashes and warnings. They have no frames or pictures. With machine.csv and runs.csv they can be

@@ -107,7 +107,7 @@ void keepReason(const fs::path& folder, const results::RunSpec& spec, results::R
     exports::writeWhole(folder / "run.json", results::toJson(record));
 }
 
-/// True if memory ran out below the run's own limit.
+/// True if the run needed more memory than its own limit.
 bool exceedsMemoryLimit(const RunError& error, const suite::ResourceLimits& limits) {
     return error.kind == RunError::Kind::memory && limits.memoryMegabytes > 0;
 }

@@ -45,7 +45,7 @@ struct ExecutionOptions {
     std::vector<std::string> argv;  ///< the user's command, for provenance
     /// The command that measures one run: reads the specification and writes the run's files into the folder.
     ChildCommandLine command;
-    /// The same, but only starts the run and prints a forecast of its duration on stdout (plan_forecast.h).
+    /// The same, but only starts the run and prints a forecast of its duration on stdout (run_messages.h).
     ChildCommandLine forecastCommand;
     /// Forecasts known before the first run.
     ForecastByCell forecasts;
