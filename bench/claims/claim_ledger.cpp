@@ -152,10 +152,14 @@ std::set<std::string> runIdsOf(const std::string& suiteId, const files::CsvTable
     for (std::size_t row = 0; row < summary.rows(); ++row)
         repetitions = std::max(repetitions, repetitionIn(summary, row));
     std::set<std::string> ids;
-    for (const bool quick : {false, true})
-        for (const suite::PlannedRun& cell : suite::loadSuite(suiteId, quick).cells)
+    const auto add = [&](const suite::Suite& suite) {
+        for (const suite::PlannedRun& cell : suite.cells)
             for (int repetition = 1; repetition <= repetitions; ++repetition)
                 ids.insert(results::runId(suite::inRepetition(cell.spec, repetition)));
+    };
+    const suite::SuiteForms forms = suite::loadForms(suiteId);
+    add(forms.full);
+    if (forms.quick) add(*forms.quick);
     return ids;
 }
 

@@ -198,7 +198,8 @@ int printEstimate(const std::vector<suite::PlannedRun>& toDo, PlanOptions option
 }
 
 std::string describeSuite(const std::string& id) {
-    const suite::Suite full = suite::loadSuite(id, false), quick = suite::loadSuite(id, true);
+    const suite::SuiteForms forms = suite::loadForms(id);
+    const suite::Suite& full = forms.full;
     std::string text;
     for (const suite::SuiteFile& suite : suite::listSuites())
         if (suite.id == id) {
@@ -208,7 +209,7 @@ std::string describeSuite(const std::string& id) {
     if (!full.chart.column.empty())
         text += fmt::format("  {:<12} {}{}{}\n", "chart", full.chart.column,
                             full.chart.against.empty() ? "" : " against ", full.chart.against);
-    text += formText("full", full) + formText("--quick", quick);
+    text += formText("full", full) + formText("--quick", forms.quick.value_or(full));
     for (const suite::PlannedComparison& comparison : full.comparisons)
         text += fmt::format("  {:<12} {} with {}: {}\n", "compares", comparison.of.label, comparison.with.label,
                             fmt::join(comparison.columns, ", "));

@@ -58,17 +58,21 @@ PlannedByKey plannedRuns(const results::StoredRuns& runs) {
     for (const auto& [id, run] : runs)
         repetitions = std::max(repetitions, static_cast<int>(files::numberOf(cellIn(run, "repetition")).value_or(1)));
     PlannedByKey planned;
-    for (const suite::SuiteFile& file : suite::listSuites())
-        for (const bool quick : {false, true}) {
-            try {
-                for (const suite::PlannedRun& cell : suite::withBaselines(suite::loadSuite(file.id, quick)).cells)
-                    for (int repetition = 1; repetition <= repetitions; ++repetition) {
-                        results::RunSpec spec = suite::inRepetition(cell.spec, repetition);
-                        planned[keyOfSpec(spec)].try_emplace(results::runId(spec), spec);
-                    }
-            } catch (const InputError&) {  // which sortIntoGroups reports
+    const auto add = [&](const suite::Suite& suite) {
+        for (const suite::PlannedRun& cell : suite::withBaselines(suite).cells)
+            for (int repetition = 1; repetition <= repetitions; ++repetition) {
+                results::RunSpec spec = suite::inRepetition(cell.spec, repetition);
+                planned[keyOfSpec(spec)].try_emplace(results::runId(spec), spec);
             }
+    };
+    for (const suite::SuiteFile& file : suite::listSuites()) {
+        try {
+            const suite::SuiteForms forms = suite::loadForms(file.file.string());
+            add(forms.full);
+            if (forms.quick) add(*forms.quick);
+        } catch (const InputError&) {  // which sortIntoGroups reports
         }
+    }
     return planned;
 }
 

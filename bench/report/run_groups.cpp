@@ -234,25 +234,26 @@ std::vector<RunGroup> sortIntoGroups(const results::StoredRuns& runs, const Mach
     std::vector<std::string> faults;
     for (const suite::SuiteFile& file : suite::listSuites()) {
         std::set<const results::StoredRun*> shown;  // of this suite
-        for (const bool quick : {false, true}) {
-            try {
-                suite::Suite suite = suite::loadSuite(file.id, quick);
-                const std::vector<const results::StoredRun*> found = finder.of(suite);
-                // Runs that belong to both the full and the quick run are shown once.
-                if (std::ranges::all_of(found, [&](const results::StoredRun* run) { return shown.contains(run); }))
-                    continue;
-                shown.insert(found.begin(), found.end());
-                const std::vector<const results::StoredRun*> all = finder.of(suite::withBaselines(suite));
-                placed.insert(all.begin(), all.end());
-                RunGroup group = makeGroup(found, machines);
-                group.id = quick ? file.id + "-quick" : file.id;
-                group.paper = file.paper;
-                describeBy(std::move(suite), repetitions, runs, group);
-                group.suiteText = fileText(file.file);
-                groups.push_back(std::move(group));
-            } catch (const InputError& error) {
-                faults.push_back(fmt::format("suite '{}' cannot be read: {}", file.id, error.what()));
-            }
+        const auto add = [&](suite::Suite suite, const std::string& id) {
+            const std::vector<const results::StoredRun*> found = finder.of(suite);
+            // Runs that belong to both forms of the suite are shown once.
+            if (std::ranges::all_of(found, [&](const results::StoredRun* run) { return shown.contains(run); })) return;
+            shown.insert(found.begin(), found.end());
+            const std::vector<const results::StoredRun*> all = finder.of(suite::withBaselines(suite));
+            placed.insert(all.begin(), all.end());
+            RunGroup group = makeGroup(found, machines);
+            group.id = id;
+            group.paper = file.paper;
+            describeBy(std::move(suite), repetitions, runs, group);
+            group.suiteText = fileText(file.file);
+            groups.push_back(std::move(group));
+        };
+        try {
+            suite::SuiteForms forms = suite::loadForms(file.file.string());
+            add(std::move(forms.full), file.id);
+            if (forms.quick) add(std::move(*forms.quick), file.id + "-quick");
+        } catch (const InputError& error) {
+            faults.push_back(fmt::format("suite '{}' cannot be read: {}", file.id, error.what()));
         }
     }
     std::vector<const results::StoredRun*> others;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
+#include <span>
 
 #include "bench/results/summary.h"
 #include "bench/suite/paper.h"
@@ -22,49 +24,89 @@ namespace dustbench::suite {
 namespace fs = std::filesystem;
 namespace {
 
-bool covers(const Exception& exception, const results::RunSpec& cell) {
-    const auto isOneOf = [](const std::string& value, const std::vector<std::string>& list) {
-        return list.empty() || std::ranges::find(list, value) != list.end();
-    };
+/// Where a configuration runs.
+struct World {
+    std::string scene, drive;
+    results::ImageSize size;
+    std::uint64_t seed;
+};
+
+bool isOneOf(const std::string& value, const std::vector<std::string>& list) {
+    return list.empty() || std::ranges::find(list, value) != list.end();
+}
+
+bool covers(const Exception& exception, const World& world) {
+    const auto isSize = [&](const std::string& text) { return results::parseSize(text) == world.size; };
+    return isOneOf(world.scene, exception.scenes) && isOneOf(world.drive, exception.drives) &&
+           (exception.sizes.empty() || std::ranges::any_of(exception.sizes, isSize));
+}
+
+bool covers(const Exception& exception, const results::RunSpec& setting) {
     const auto hasOneOf = [&](const auto& parameter) {
         const auto& [name, values] = parameter;
-        const auto own = cell.parameters.find(name);
-        return own != cell.parameters.end() && std::ranges::any_of(values, [&](const std::string& value) {
-                   return results::canonicalParameters(findMethod(cell.method), {{name, value}}).at(name) ==
+        const auto own = setting.parameters.find(name);
+        return own != setting.parameters.end() && std::ranges::any_of(values, [&](const std::string& value) {
+                   return results::canonicalParameters(findMethod(setting.method), {{name, value}}).at(name) ==
                           own->second;
                });
     };
-    const auto hasSize = [&](const results::ImageSize& size) {
-        return exception.sizes.empty() || std::ranges::any_of(exception.sizes, [&](const std::string& text) {
-                   return results::parseSize(text) == size;
-               });
-    };
-    return isOneOf(cell.method, exception.methods) && isOneOf(cell.scene, exception.scenes) &&
-           isOneOf(cell.drive, exception.drives) && hasSize(cell.size) &&
-           std::ranges::all_of(exception.parameters, hasOneOf);
+    return isOneOf(setting.method, exception.methods) && std::ranges::all_of(exception.parameters, hasOneOf);
 }
 
-/// Returns the number of configurations that it excludes, completely or for some repetitions.
-std::size_t leaveOut(const Exception& exception, std::vector<PlannedRun>& cells) {
-    const auto isCovered = [&](const PlannedRun& cell) { return covers(exception, cell.spec); };
-    std::size_t count = 0;
-    if (exception.metricsOnly) {
-        for (PlannedRun& cell : cells) {
-            if (!cell.spec.metricPlan || !isCovered(cell)) continue;
-            cell.spec.metricPlan.reset();
-            ++count;
+/// The exceptions of a suite, in order, and how many configurations each one changed or removed.
+class Exclusions {
+ public:
+    explicit Exclusions(const std::vector<Exception>& exceptions)
+        : exceptions_(exceptions), counts_(exceptions.size(), 0) {}
+
+    /// The exceptions that cover the method and the parameters of a setting. The same in every world.
+    [[nodiscard]] std::vector<std::size_t> of(const results::RunSpec& setting) const {
+        std::vector<std::size_t> covering;
+        for (std::size_t i = 0; i < exceptions_.size(); ++i)
+            if (covers(exceptions_[i], setting)) covering.push_back(i);
+        return covering;
+    }
+
+    /// The setting in this world, or nullopt if one of its exceptions removes it there.
+    [[nodiscard]] std::optional<PlannedRun> in(const World& world, const PlannedRun& setting,
+                                               std::span<const std::size_t> itsExceptions) {
+        bool hasMetrics = setting.spec.metricPlan.has_value();
+        int repetitions = 0;
+        std::string skip;
+        for (const std::size_t i : itsExceptions) {
+            const Exception& exception = exceptions_[i];
+            if (!covers(exception, world) || (exception.metricsOnly && !hasMetrics)) continue;
+            ++counts_[i];
+            if (exception.metricsOnly) {
+                hasMetrics = false;
+            } else if (exception.afterRepetition == 0 && exception.reason.empty()) {
+                return std::nullopt;
+            } else {
+                repetitions = std::max(exception.afterRepetition, 1);
+                skip = exception.reason;
+            }
         }
-        return count;
+        PlannedRun run = setting;
+        if (!hasMetrics) run.spec.metricPlan.reset();
+        run.repetitions = repetitions;
+        run.skip = std::move(skip);
+        run.spec.scene = world.scene;
+        run.spec.drive = world.drive;
+        run.spec.size = world.size;
+        run.spec.seed = world.seed;
+        return run;
     }
-    if (exception.afterRepetition == 0 && exception.reason.empty()) return std::erase_if(cells, isCovered);
-    for (PlannedRun& cell : cells) {
-        if (!isCovered(cell)) continue;
-        cell.repetitions = std::max(exception.afterRepetition, 1);
-        cell.skip = exception.reason;
-        ++count;
+
+    /// Throws InputError for an exception that matched no configuration.
+    void requireMatches() const {
+        for (std::size_t i = 0; i < exceptions_.size(); ++i)
+            if (counts_[i] == 0) throw InputError(exceptions_[i].where + "except: matches no configuration");
     }
-    return count;
-}
+
+ private:
+    const std::vector<Exception>& exceptions_;
+    std::vector<std::size_t> counts_;
+};
 
 /// Throws InputError if no run of the suite has the load of its chart. Every run has the costs.
 void requireLoad(const Suite& suite, const std::string& where) {
@@ -134,32 +176,37 @@ Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
     requireFewEnough(draft);
     requireNothingTimed(draft);
     Suite suite = std::move(draft.suite);
+    std::vector<World> worlds;
+    std::vector<std::string> labels;  // of the worlds
+    for (const std::string& scene : draft.scenes)
+        for (const std::string& drive : draft.drives)
+            for (const std::string& size : draft.sizes)
+                for (const std::uint64_t seed : draft.seeds) {
+                    worlds.push_back({scene, drive, results::parseSize(size), seed});
+                    labels.push_back((draft.sizes.size() > 1 ? size + " " : "") +
+                                     (draft.drives.size() > 1 ? drive + " " : "") +
+                                     (draft.seeds.size() > 1 ? fmt::format("seed={} ", seed) : ""));
+                }
+    Exclusions exclusions(draft.exceptions);
     for (const std::string& id : draft.methods) {
         results::RunSpec base = draft.base;
         base.method = id;
         if (const auto finer = draft.finerSettings.find(id); base.metricPlan && finer != draft.finerSettings.end())
             base.metricPlan->finer = finer->second;
-        // The same in every world, so they are resolved once.
         const std::vector<PlannedRun> settings = expandParameters(base, findMethod(id), listsOf(draft, id));
-        for (const PlannedRun& setting : settings) results::requireChangesWithinRun(setting.spec);
-        for (const std::string& scene : draft.scenes)
-            for (const std::string& drive : draft.drives)
-                for (const std::string& size : draft.sizes)
-                    for (const std::uint64_t seed : draft.seeds)
-                        for (PlannedRun run : settings) {
-                            run.spec.scene = scene;
-                            run.spec.drive = drive;
-                            run.spec.size = results::parseSize(size);
-                            run.spec.seed = seed;
-                            if (draft.seeds.size() > 1) run.label = fmt::format("seed={} {}", seed, run.label);
-                            if (draft.drives.size() > 1) run.label = drive + " " + run.label;
-                            if (draft.sizes.size() > 1) run.label = size + " " + run.label;
-                            suite.cells.push_back(std::move(run));
-                        }
+        std::vector<std::vector<std::size_t>> exceptions;  // of the settings
+        for (const PlannedRun& setting : settings) {
+            results::requireChangesWithinRun(setting.spec);
+            exceptions.push_back(exclusions.of(setting.spec));
+        }
+        for (std::size_t w = 0; w < worlds.size(); ++w)
+            for (std::size_t s = 0; s < settings.size(); ++s)
+                if (std::optional<PlannedRun> run = exclusions.in(worlds[w], settings[s], exceptions[s])) {
+                    run->label.insert(0, labels[w]);
+                    suite.cells.push_back(std::move(*run));
+                }
     }
-    for (const Exception& exception : draft.exceptions)
-        if (leaveOut(exception, suite.cells) == 0 && wholeFile)
-            throw InputError(exception.where + "except: matches no configuration");
+    if (wholeFile) exclusions.requireMatches();
     // Without repetitions there are no intervals, so such a suite does not compare times.
     suite.baseline =
         draft.baseline.value_or(suite.repetitions > 1 || !suite.comparisons.empty() || !suite.fits.empty());
@@ -171,22 +218,25 @@ Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
     return suite;
 }
 
-Suite readSuite(files::TomlReader file, const fs::path& place, std::string id, bool quick) {
+SuiteForms readSuite(files::TomlReader file, const fs::path& place, const std::string& id) {
     SuiteDraft draft;
     draft.file = place;
     draft.read(file);
-    Suite suite = multiplyOut(draft, true);
+    SuiteForms forms{multiplyOut(draft, true), std::nullopt};
+    forms.full.id = id;
     if (file.has("quick")) {
-        // Always read, to find errors in it early.
         files::TomlReader table = file.table("quick");
         draft.read(table);
         table.finish();
-        Suite shorter = multiplyOut(std::move(draft), false);
-        if (quick) suite = std::move(shorter);
+        forms.quick = multiplyOut(std::move(draft), false);
+        forms.quick->id = id;
     }
     file.finish();
-    suite.id = std::move(id);
-    return suite;
+    return forms;
+}
+
+Suite chosen(SuiteForms forms, bool quick) {
+    return quick && forms.quick ? std::move(*forms.quick) : std::move(forms.full);
 }
 
 /// Random order of a round.
@@ -242,7 +292,7 @@ std::vector<SuiteFile> listSuites() {
     return list;
 }
 
-Suite loadSuite(const std::string& idOrFile, bool quick) {
+SuiteForms loadForms(const std::string& idOrFile) {
     fs::path file;
     if (files::isDataFile(idOrFile, ".toml")) {
         file = files::findData("suite", "suites", idOrFile, ".toml");
@@ -254,11 +304,15 @@ Suite loadSuite(const std::string& idOrFile, bool quick) {
         }
         if (file.empty()) throw unknownName("suite", idOrFile, known);
     }
-    return readSuite(files::TomlReader::parseFile(file), file, file.stem(), quick);
+    return readSuite(files::TomlReader::parseFile(file), file, file.stem());
+}
+
+Suite loadSuite(const std::string& idOrFile, bool quick) {
+    return chosen(loadForms(idOrFile), quick);
 }
 
 Suite parseSuite(std::string_view text, const std::string& name, bool quick) {
-    return readSuite(files::TomlReader::parseText(text, name), {}, name, quick);
+    return chosen(readSuite(files::TomlReader::parseText(text, name), {}, name), quick);
 }
 
 void requireDifferentValues(const MethodInfo& method, const std::string& name, const std::vector<std::string>& values) {

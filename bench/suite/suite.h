@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,8 +58,16 @@ struct Suite {
     std::vector<PlannedFit> fits;
 };
 
-/// Loads a suite by its id or its file. Paths within the file are relative to it. `quick` applies the file's `[quick]`
-/// values. Throws InputError with file, line and what was expected.
+/// The suite of a file, and the one with the values of its `[quick]`, if it has that table.
+struct SuiteForms {
+    Suite full;
+    std::optional<Suite> quick;
+};
+
+/// Loads a suite by its id or its file. Paths within the file are relative to it. Throws InputError with file, line and
+/// what was expected, also for errors in `[quick]`.
+[[nodiscard]] SuiteForms loadForms(const std::string& idOrFile);
+/// One form of it; `quick` without `[quick]` is the full suite.
 [[nodiscard]] Suite loadSuite(const std::string& idOrFile, bool quick);
 [[nodiscard]] Suite parseSuite(std::string_view text, const std::string& name, bool quick);
 
