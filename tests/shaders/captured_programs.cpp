@@ -116,6 +116,10 @@ class Stage {
           opaque_(world_.scene(), device, width, height) {
         world_.step();
         opaque_.draw(world_.state(), world_.view(width, height));
+    }
+
+    /// With and without its vehicle, its solids and light on its dust.
+    void drawParts() {
         for (const bool vehicle : {false, true})
             for (const bool solids : {false, true})
                 for (const bool lit : {false, true}) drawBare(vehicle, solids, lit);
@@ -188,6 +192,8 @@ class Stage {
 class Stages {
  public:
     explicit Stages(gpu::Device& device) {
+        // A plain with solids, hills, and reliefs that wear away: the shaders of all others are among these.
+        for (const char* scene : {"carr_gates", "dunes", "relief_acid"}) Stage(device, scene).drawParts();
         for (const std::string& scene : files::listData("scenes", ".toml"))
             stages_.insert(scene == "plain" ? stages_.begin() : stages_.end(), std::make_unique<Stage>(device, scene));
         stages_.front()->fill(plain_, true);
