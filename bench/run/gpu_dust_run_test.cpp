@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 #include "bench/measure/image/picture_error.h"
 #include "bench/run/frame_runner.h"
@@ -85,6 +87,8 @@ const std::vector<Taker> takers{{"billboard"},
                                 {"stochastic_transparency"},
                                 {"weighted_oit"},
                                 {"weighted_oit", {{"raster", "tiles"}}},
+                                {"moment_oit"},
+                                {"wavelet_oit"},
                                 {"null_method"},
                                 {"octree_recursive", {{"layout", "gpu"}}, 2},
                                 {"octree_search", {{"layout", "gpu"}, {"render", "cubes"}}, 2}};
@@ -113,6 +117,14 @@ TEST_F(GpuDustRun, ReadsNothingBackInAFrame) {
     }
 }
 
+/// How often a method draws each particle in a frame.
+int passesOf(const std::string& method, const results::ParameterTexts& parameters) {
+    static const std::map<std::string, int> passes{
+        {"stochastic_transparency", 2}, {"moment_oit", 2}, {"wavelet_oit", 2}};
+    const auto found = passes.find(method);
+    return (found == passes.end() ? 1 : found->second) + (parameters.contains("bounds") ? 1 : 0);
+}
+
 TEST_F(GpuDustRun, DrawsThePictureOfDustOnTheCpu) {
     gpu::Device device;
     const std::vector<std::pair<std::string, results::ParameterTexts>> settings{
@@ -123,6 +135,12 @@ TEST_F(GpuDustRun, DrawsThePictureOfDustOnTheCpu) {
         {"weighted_oit", {}},
         {"weighted_oit", {{"raster", "tiles"}}},
         {"weighted_oit", {{"mode", "paper"}}},
+        {"moment_oit", {}},
+        {"moment_oit", {{"mode", "paper"}, {"warp", "linear"}}},
+        {"moment_oit", {{"precision", "quantised"}}},
+        {"wavelet_oit", {}},
+        {"wavelet_oit", {{"puff", "volume"}, {"warp", "linear"}}},
+        {"wavelet_oit", {{"bounds", "pixel"}}},
         {"multi_layer", {}},
         {"offscreen_particles", {}},
         {"stochastic_transparency", {}},
@@ -139,9 +157,8 @@ TEST_F(GpuDustRun, DrawsThePictureOfDustOnTheCpu) {
                 stepped.runner.frame(0);
                 shown.push_back(stepped.runner.picture());
                 const measure::FrameRecord& last = stepped.runner.records().back();
-                const bool twoPasses = std::string_view(method) == "stochastic_transparency";
                 EXPECT_GT(last.particles, 500) << method;
-                EXPECT_EQ(last.primitives, (twoPasses ? 2 : 1) * last.particles) << method;
+                EXPECT_EQ(last.primitives, passesOf(method, parameters) * last.particles) << method;
             }
             const double difference =
                 *measure::flip(measure::preparePicture(shown[0], "CPU"), measure::preparePicture(shown[1], "GPU"))

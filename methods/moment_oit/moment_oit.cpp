@@ -107,6 +107,7 @@ void MomentOit::prepare(const scene::Scene&, const RunSetup&, gpu::Device& devic
     colours_.emplace(device, "weighted colours", std::vector<gpu::Format>{gpu::Format::rgba32F});
     average_.emplace(device);
     using namespace moment_oit_shaders;
+    warp_.emplace(device, depth_extent_glsl, definitions);
     const Kind& kind = settings_.kind;
     std::vector<gpu::ShaderFile> files{moments_glsl, bias_glsl};
     files.push_back(kind.basis == Basis::power && kind.count < 8 ? transmittance_glsl : canonical_measure_glsl);
@@ -119,16 +120,18 @@ void MomentOit::prepare(const scene::Scene&, const RunSetup&, gpu::Device& devic
 
 void MomentOit::update(const Frame& frame) {
     const auto timing = frame.clock.measure(Stage::upload);
-    quads_->upload(frame.dust);
+    frame.gpuDust ? quads_->gather(*frame.gpuDust) : quads_->upload(frame.dust);
 }
 
 void MomentOit::draw(const Frame& frame, gpu::Layer& layer) {
     if (quads_->count() == 0) return;
-    const WarpedDepth range = depthRange(frame.dust, frame.view, settings_.warp, settings_.puff);
-    isQuantised() ? addQuantisedMoments(frame, range, layer) : addMoments(frame, range, layer);
+    if (frame.gpuDust)
+        warp_->useRangeOf(*frame.gpuDust, frame.view);
+    else
+        warp_->use(warpUniform(depthRange(frame.dust, frame.view, settings_.warp, settings_.puff)));
+    isQuantised() ? addQuantisedMoments(frame, layer) : addMoments(frame, layer);
 
     gpu::Program& second = quads_->begin(*colourPass_, frame.view);
-    second.set("warp", warpUniform(range));
     second.set("momentBias", static_cast<float>(settings_.biasFactor * biasOf(settings_.kind)));
     second.set("overestimation", static_cast<float>(settings_.overestimation));
     if (!quads_->isColoured()) second.set("puffColour", frame.dust.colourOfAll);
@@ -143,14 +146,13 @@ void MomentOit::draw(const Frame& frame, gpu::Layer& layer) {
     average_->draw(colours_->texture(0), total(), layer);
 }
 
-void MomentOit::addMoments(const Frame& frame, const WarpedDepth& range, const gpu::Layer& layer) {
+void MomentOit::addMoments(const Frame& frame, const gpu::Layer& layer) {
     gpu::Program& first = quads_->begin(*momentPass_, frame.view);
-    first.set("warp", warpUniform(range));
     moments_->begin(layer.width(), layer.height());
     quads_->add(first, layer.sceneDepth());
 }
 
-void MomentOit::addQuantisedMoments(const Frame& frame, const WarpedDepth& range, const gpu::Layer& layer) {
+void MomentOit::addQuantisedMoments(const Frame& frame, const gpu::Layer& layer) {
     if (!quantisedPass_) {
         auto definitions = definitionsOf(settings_);
         definitions["COLOURLESS"] = "";
@@ -160,7 +162,6 @@ void MomentOit::addQuantisedMoments(const Frame& frame, const WarpedDepth& range
                                std::move(definitions), settings_.reachDeviations);
     }
     gpu::Program& program = quantisedPass_->begin(*quads_, frame);
-    program.set("warp", warpUniform(range));
 
     const std::size_t bytes = storedBytes(settings_.kind) * static_cast<std::size_t>(layer.width()) *
                               static_cast<std::size_t>(layer.height());
@@ -195,7 +196,7 @@ MemoryReport MomentOit::memory() const {
 }
 
 std::int64_t MomentOit::primitives() const {
-    return quads_ ? 2 * static_cast<std::int64_t>(quads_->count()) : 0;  // two passes
+    return quads_ ? 2 * quads_->primitives() : 0;  // two passes
 }
 
 MethodInfo describe() {
@@ -232,6 +233,7 @@ MethodInfo describe() {
     info.parameters.preset("puff", "surface", {{"overestimation", "0.25"}});
     info.parameters.preset("profile", "point", {{"overestimation", "0.25"}});
     info.facts = {draw::bitsPerPixel(), draw::bytesPerFragment()};
+    info.takesGpuDust = [](const ParameterValues&) { return true; };
     info.create = [](const ParameterValues& values) {
         Settings settings;
         settings.kind = {.basis = values.choice("basis", bases),

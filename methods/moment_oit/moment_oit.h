@@ -17,6 +17,7 @@
 
 #include "methods/contract/method.h"
 #include "methods/kit/draw/average_colour.h"
+#include "methods/kit/draw/depth_mapping.h"
 #include "methods/kit/draw/puff_quads.h"
 #include "methods/kit/draw/sum_targets.h"
 #include "methods/kit/draw/tile_pass.h"
@@ -69,8 +70,8 @@ class MomentOit final : public Method {
     [[nodiscard]] std::int64_t primitives() const override;
 
  private:
-    void addMoments(const Frame& frame, const WarpedDepth& range, const gpu::Layer& layer);
-    void addQuantisedMoments(const Frame& frame, const WarpedDepth& range, const gpu::Layer& layer);
+    void addMoments(const Frame& frame, const gpu::Layer& layer);
+    void addQuantisedMoments(const Frame& frame, const gpu::Layer& layer);
     /// b₀ in the first channel.
     [[nodiscard]] const gpu::Texture& total() const { return moments_->texture(isQuantised() ? 0 : 1); }
     [[nodiscard]] bool isQuantised() const { return settings_.kind.precision == Precision::quantised; }
@@ -78,6 +79,7 @@ class MomentOit final : public Method {
     Settings settings_;
     gpu::Device* device_ = nullptr;
     std::optional<draw::PuffQuads> quads_;
+    std::optional<draw::DepthMapping> warp_;
     std::optional<draw::SumTargets> moments_, colours_;
     std::optional<draw::AverageColour> average_;
     std::optional<draw::FragmentPass> momentPass_, colourPass_;

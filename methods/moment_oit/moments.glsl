@@ -1,7 +1,9 @@
 // Moments of the optical depth along a ray. MOMENTS is 4, 6 or 8; b[0] of b[0..MOMENTS] is the total depth. The others
 // are power moments or, if TRIGONOMETRIC, the real and imaginary parts of moments on a circle. SURFACE: a puff is a
 // surface at its centre's depth along the camera's axis. The reference implementation is plain_moments.cpp.
-uniform vec2 warp;  // WARP_LOG: ln of the nearest distance, 2/(ln farthest − ln nearest); otherwise the same without ln
+layout(std140, binding = 0) uniform Warp {
+    vec2 warp;  // WARP_LOG: ln of the nearest distance, 2/(ln farthest − ln nearest); otherwise the same without ln
+};
 
 /// Maps a distance to −1..1.
 float warped(float metres) {

@@ -67,6 +67,7 @@ void WaveletOit::prepare(const scene::Scene&, const RunSetup&, gpu::Device& devi
     colours_.emplace(device, "weighted colours", std::vector<gpu::Format>{gpu::Format::rgba32F, gpu::Format::r32F});
     average_.emplace(device);
     const auto reading = definitionsOf(settings_, "readonly");
+    mapping_.emplace(device, shaders::depth_extent_glsl, reading);
     if (settings_.bounds == Bounds::pixel)
         boundsPass_ = draw::puffPass("depth bounds", {shaders::wavelets_glsl, shaders::depth_bounds_frag},
                                      definitionsOf(settings_, "coherent"));
@@ -77,15 +78,12 @@ void WaveletOit::prepare(const scene::Scene&, const RunSetup&, gpu::Device& devi
 
 void WaveletOit::update(const Frame& frame) {
     const auto timing = frame.clock.measure(Stage::upload);
-    quads_->upload(frame.dust);
+    frame.gpuDust ? quads_->gather(*frame.gpuDust) : quads_->upload(frame.dust);
 }
 
 gpu::Program& WaveletOit::begin(draw::FragmentPass& pass, const Frame& frame, const gpu::Layer& layer) {
     gpu::Program& program = quads_->begin(pass, frame.view);
-    if (settings_.bounds == Bounds::pixel)
-        program.set("pictureWidth", layer.width());
-    else
-        program.set("mapping", mapping_);
+    if (settings_.bounds == Bounds::pixel) program.set("pictureWidth", layer.width());
     return program;
 }
 
@@ -107,8 +105,10 @@ void WaveletOit::draw(const Frame& frame, gpu::Layer& layer) {
     if (quads_->count() == 0) return;
     if (settings_.bounds == Bounds::pixel)
         findBounds(frame, layer);
+    else if (frame.gpuDust)
+        mapping_->useRangeOf(*frame.gpuDust, frame.view);
     else
-        mapping_ = mappingUniform(depthRange(frame.dust, frame.view, settings_));
+        mapping_->use(mappingUniform(depthRange(frame.dust, frame.view, settings_)));
 
     gpu::Program& first = begin(*coefficientPass_, frame, layer);
     coefficients_->begin(layer.width(), layer.height());
@@ -143,7 +143,7 @@ MemoryReport WaveletOit::memory() const {
 
 std::int64_t WaveletOit::primitives() const {
     const int passes = settings_.bounds == Bounds::pixel ? 3 : 2;
-    return quads_ ? passes * static_cast<std::int64_t>(quads_->count()) : 0;
+    return quads_ ? passes * quads_->primitives() : 0;
 }
 
 MethodInfo describe() {
@@ -166,6 +166,7 @@ MethodInfo describe() {
         .real("reach", 3.5, 2, 6, "deviations",
               "half-side of a puff's quad in standard deviations; exp(-reach^2/2) of its depth is cut off");
     info.facts = {draw::bitsPerPixel(), draw::bytesPerFragment()};
+    info.takesGpuDust = [](const ParameterValues&) { return true; };
     info.create = [](const ParameterValues& values) {
         return std::make_unique<WaveletOit>(Settings{.rank = static_cast<int>(values.integer("rank")),
                                                      .storage = values.choice("coefficients", storages),

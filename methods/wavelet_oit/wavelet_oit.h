@@ -15,6 +15,7 @@
 
 #include "methods/contract/method.h"
 #include "methods/kit/draw/average_colour.h"
+#include "methods/kit/draw/depth_mapping.h"
 #include "methods/kit/draw/puff_quads.h"
 #include "methods/kit/draw/sum_targets.h"
 #include "methods/kit/gpu/buffer.h"
@@ -74,8 +75,8 @@ class WaveletOit final : public Method {
     std::optional<draw::SumTargets> coefficients_, colours_;
     std::optional<draw::AverageColour> average_;
     std::optional<draw::FragmentPass> boundsPass_, coefficientPass_, colourPass_;
-    gpu::Buffer bounds_;   ///< of pixels
-    glm::vec2 mapping_{};  ///< of the frame
+    std::optional<draw::DepthMapping> mapping_;  ///< of the frame
+    gpu::Buffer bounds_;                         ///< of pixels
 };
 
 /// Called by the registry.

@@ -19,7 +19,7 @@ vec2 mappingAt(ivec2 pixel) {
     return vec2(least, (1.0 - 1.0 / float(COUNT)) / (most - least));
 }
 #else
-uniform vec2 mapping;
+layout(std140, binding = 0) uniform Mapping { vec2 mapping; };
 vec2 mappingAt(ivec2 pixel) {
     return mapping;
 }

@@ -356,16 +356,20 @@ void drawGpuDust(gpu::Device& device) {
         world.step();
         const scene::View view = world.view(width, height);
         const Frame now{0, world::stepSeconds, world.state(), Puffs{}, view, untimed, world.gpuDust()};
-        for (const MethodInfo& info : methods())
-            for (const char* soft : {"off", "on"}) {
+        for (const MethodInfo& info : methods()) {
+            std::vector<std::string> choices;
+            for (const char* name : {"soft", "puff", "warp"})
+                if (info.parameters.find(name)) choices.emplace_back(name);
+            forEachCombination(info, {}, choices, [&](const Values& given) {
                 ParameterValues values(info.parameters);
-                if (info.parameters.find("soft")) values.set("soft", soft);
-                if (!info.takesGpuDust || !info.takesGpuDust(values)) continue;
+                for (const auto& [name, value] : given) values.set(name, value);
+                if (!info.takesGpuDust || !info.takesGpuDust(values)) return;
                 const auto method = info.create(values);
                 method->prepare(world.scene(), {}, device);
                 method->update(now);
                 method->draw(now, layer);
-            }
+            });
+        }
     }
 }
 
