@@ -61,6 +61,7 @@ TEST(DepthMapping, HasTheRangeOfTheLastPuffsAlone) {
         std::normal_distribution<float> place(0, spread);
         std::uniform_real_distribution<float> radius(0.01f, 3);
         std::vector<glm::vec4> spheres;
+        spheres.reserve(static_cast<std::size_t>(count));
         for (int i = 0; i < count; ++i)
             spheres.emplace_back(place(random), place(random), place(random), radius(random));
         double nearest = 1e30, farthest = -1;
