@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <set>
 
@@ -19,6 +20,7 @@
 #include "methods/kit/files/printable.h"
 
 namespace dustbench::cli {
+namespace fs = std::filesystem;
 namespace {
 
 /// Tables of metrics with at most this many rows are transposed, because they are easier to read.
@@ -156,8 +158,6 @@ std::string claimsReport(const std::vector<claims::EvaluatedClaim>& claims) {
     if (claims.empty()) return "";
     return "claims\n" + textOf(claims::tabulate(claims));
 }
-
-namespace fs = std::filesystem;
 
 std::vector<suite::PlannedRun> printPlan(const std::vector<suite::PlannedRun>& plan, int repetitions,
                                          const fs::path& out) {
