@@ -4,10 +4,10 @@
 // For dust in GPU buffers, the range is found there. A method's piece of shader defines
 //
 //     vec2 extentOf(float axisMetres, float metres, float deviationMetres, float nearMetres)
-//         the least and the greatest distance of a puff whose centre is at `axisMetres` along the camera's axis and
-//         `metres` from the eye; a negative greatest distance leaves the puff out
+//         the nearest and the farthest distance of a puff whose centre is at `axisMetres` along the camera's axis and
+//         `metres` from the eye; a negative farthest distance leaves the puff out
 //     vec2 mappingOf(float nearestMetres, float farthestMetres, float nearMetres)
-//         the two numbers, from the least and the greatest of all distances; farthest < nearest if no puff counts
+//         the two numbers, from the nearest and the farthest of all distances; farthest < nearest if no puff counts
 //
 // where `nearMetres` is the camera's. Distances below 0 count as 0.
 //

@@ -1,4 +1,4 @@
-// The least and the greatest distance of all puffs, then the mapping from them (depth_mapping.h). Floats from 0 on are
+// The nearest and the farthest distance of all puffs, then the mapping from them (depth_mapping.h). Floats from 0 on are
 // in the order of their bits, and minima do not depend on the order of puffs.
 layout(std430, binding = 0) restrict buffer Ends { uint nearest, farthest; };
 
