@@ -15,7 +15,7 @@ DepthMapping::DepthMapping(gpu::Device& device, gpu::ShaderFile piece, std::map<
     : device_(device),
       piece_(piece),
       definitions_(std::move(definitions)),
-      mapping_(device, "depth mapping", sizeof(glm::vec2)) {}
+      mapping_(device, "depth mapping", sizeof(glm::vec4)) {}  // a uniform block is made of whole vec4s
 
 void DepthMapping::use(const glm::vec2& mapping) {
     mapping_.write(std::span(&mapping, 1));

@@ -11,7 +11,7 @@
 //
 // where `nearMetres` is the camera's. Distances below 0 count as 0.
 //
-// Owns: 16 bytes. Threads: the OpenGL thread.
+// Owns: 24 bytes, on the GPU. Threads: the OpenGL thread.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,5 +1,5 @@
 // The nearest and the farthest distance of all puffs, then the mapping from them (depth_mapping.h). Floats from 0 on are
-// in the order of their bits, and minima do not depend on the order of puffs.
+// in the order of their bits, and minima and maxima do not depend on the order of puffs.
 layout(std430, binding = 0) restrict buffer Ends { uint nearest, farthest; };
 
 #ifdef MAPPING
