@@ -88,14 +88,17 @@ class Field {
  public:
     explicit Field(int size) : size_(size), values_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size)) {}
 
-    float& at(int x, int y) {
-        const int mask = size_ - 1;  // sizes are powers of two
-        return values_[static_cast<std::size_t>(y & mask) * static_cast<std::size_t>(size_) +
-                       static_cast<std::size_t>(x & mask)];
-    }
+    float& at(int x, int y) { return values_[indexOf(x, y)]; }
+    [[nodiscard]] float at(int x, int y) const { return values_[indexOf(x, y)]; }
     [[nodiscard]] int size() const { return size_; }
 
  private:
+    [[nodiscard]] std::size_t indexOf(int x, int y) const {
+        const int mask = size_ - 1;  // sizes are powers of two
+        return static_cast<std::size_t>(y & mask) * static_cast<std::size_t>(size_) +
+               static_cast<std::size_t>(x & mask);
+    }
+
     int size_;
     std::vector<float> values_;
 };
@@ -186,6 +189,21 @@ void addStones(Field& relief, Field& tone, int count) {
     }
 }
 
+/// Dirt before it is coloured and lit: the same in all scenes, so it is made once.
+struct Dirt {
+    // Heights are in texels, so that slopes are plain differences.
+    Field relief = makeNoise(detailTexels, 16, 5, 3.6f, 0.56f, reliefNoise);
+    Field tone = makeNoise(detailTexels, 16, 5, 0.26f, 0.8f, toneNoise);
+    Field hue = makeNoise(detailTexels, 16, 4, 0.07f, 0.8f, hueNoise);
+
+    Dirt() { addStones(relief, tone, 5200); }
+};
+
+const Dirt& dirt() {
+    static const Dirt made;
+    return made;
+}
+
 std::uint8_t toByte(float share) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f)));
 }
@@ -213,7 +231,7 @@ GroundPass::GroundPass(gpu::Device& device, const scene::Scene& scene)
                                     gpu::Filter::mipmapped, gpu::Wrap::repeat)),
       programs_(device, scene, false) {
     detail_.write(std::span<const std::uint8_t>(makeGroundDetail(albedo(scene), scene.lights.toSun)));
-    patches_.write(std::span<const std::uint8_t>(makeGroundPatches()));
+    patches_.write(std::span<const std::uint8_t>(groundPatches()));
 
     lattice_.moveTo(glm::dvec3(0));
     vertices_ = gpu::Buffer(device, "ground vertices", lattice_.vertices());
@@ -305,11 +323,7 @@ void GroundPass::drawShadedTriangles(gpu::Program& program, std::span<const Grou
 }
 
 std::vector<std::uint8_t> makeGroundDetail(glm::vec3 albedo, glm::vec3 toSun) {
-    // Heights are in texels, so that slopes are plain differences.
-    Field relief = makeNoise(detailTexels, 16, 5, 3.6f, 0.56f, reliefNoise);
-    Field tone = makeNoise(detailTexels, 16, 5, 0.26f, 0.8f, toneNoise);
-    Field hue = makeNoise(detailTexels, 16, 4, 0.07f, 0.8f, hueNoise);
-    addStones(relief, tone, 5200);
+    const auto& [relief, tone, hue] = dirt();
 
     // Raises a low sun, which would put everything in shade: the relief must be visible, not physically correct.
     const glm::vec3 light = glm::normalize(glm::vec3(toSun.x, std::max(toSun.y, 0.5f), toSun.z));
@@ -338,19 +352,22 @@ std::vector<std::uint8_t> makeGroundDetail(glm::vec3 albedo, glm::vec3 toSun) {
     return bytes;
 }
 
-std::vector<std::uint8_t> makeGroundPatches() {
-    Field tone = makeNoise(patchTexels, 4, 7, 0.26f, 0.93f, patchNoise);
-    Field warmth = makeNoise(patchTexels, 6, 5, 0.06f, 0.8f, patchNoise + 50);
-    std::vector<std::uint8_t> bytes;
-    for (int y = 0; y < patchTexels; ++y)
-        for (int x = 0; x < patchTexels; ++x) {
-            const float brightness = std::clamp(1 + tone.at(x, y), 0.5f, 1.6f);
-            const float warm = warmth.at(x, y);
-            for (const float factor : {1 + warm, 1.0f, 1 - warm})
-                bytes.push_back(toByte(brightness * factor * 128 / 255));
-            bytes.push_back(255);
-        }
-    return bytes;
+const std::vector<std::uint8_t>& groundPatches() {
+    static const std::vector<std::uint8_t> made = [] {
+        const Field tone = makeNoise(patchTexels, 4, 7, 0.26f, 0.93f, patchNoise);
+        const Field warmth = makeNoise(patchTexels, 6, 5, 0.06f, 0.8f, patchNoise + 50);
+        std::vector<std::uint8_t> bytes;
+        for (int y = 0; y < patchTexels; ++y)
+            for (int x = 0; x < patchTexels; ++x) {
+                const float brightness = std::clamp(1 + tone.at(x, y), 0.5f, 1.6f);
+                const float warm = warmth.at(x, y);
+                for (const float factor : {1 + warm, 1.0f, 1 - warm})
+                    bytes.push_back(toByte(brightness * factor * 128 / 255));
+                bytes.push_back(255);
+            }
+        return bytes;
+    }();
+    return made;
 }
 
 }  // namespace dustbench::draw

@@ -79,7 +79,7 @@ inline constexpr double patchTileMetres = 256;
 /// RGBA, sRGB encoded; the mean in linear light is `albedo`. `toSun` gives the direction of the light on the relief.
 [[nodiscard]] std::vector<std::uint8_t> makeGroundDetail(glm::vec3 albedo, glm::vec3 toSun);
 
-/// RGBA, linear: factors of the albedo; 128 stands for 1.
-[[nodiscard]] std::vector<std::uint8_t> makeGroundPatches();
+/// RGBA, linear: factors of the albedo; 128 stands for 1. Made by the first call.
+[[nodiscard]] const std::vector<std::uint8_t>& groundPatches();
 
 }  // namespace dustbench::draw
