@@ -64,6 +64,22 @@ ValueOf ratioOf(double ratio) {
 const std::string faster =
     "quantity = \"ratio\"\ncolumn = \"frame_ms_median\"\nof = \"haze\"\nwith = \"mist\"\nmax = 1\n";
 
+TEST(ClaimRules, PairRunsWhoseDustIsOnTheSameSide) {
+    std::string text = "run_id,status,method,scene,repetition,frame_ms_median,dust_on\n";
+    int id = 0;
+    for (const char* place : {"cpu", "gpu"})
+        for (const char* method : {"haze", "mist"})
+            for (int repetition = 1; repetition <= rulesRepetitions; ++repetition) {
+                const double ms = (place[0] == 'g' ? 100 : 1) * (method[0] == 'h' ? 0.9 : 1);
+                text += fmt::format("run{},done,{},plain,{},{},{}\n", id++, method, repetition, ms, place);
+            }
+    const files::CsvTable rows = files::CsvTable::parseText(text, "summary.csv");
+    const ClaimResult result = evaluateRule(ruledClaim(faster).rule, ResultRows(rows, nullptr));
+    EXPECT_EQ(result.cells.size(), 2u);
+    EXPECT_NEAR(result.low, 0.9, 1e-9);
+    EXPECT_NEAR(result.high, 0.9, 1e-9);
+}
+
 TEST(ClaimRules, ARatioTurnsRoundWithTheTimes) {
     const ClaimResult holds = evaluated(faster, ratioOf(0.9));
     EXPECT_EQ(holds.verdict, ClaimVerdict::confirmed);

@@ -19,8 +19,8 @@
 namespace dustbench::claims {
 namespace {
 
-constexpr std::array<std::string_view, 9> cellColumns{"method", "scene", "drive",   "seed",  "width",
-                                                      "height", "sync",  "threads", "frames"};
+constexpr std::array<std::string_view, 10> cellColumns{"method", "scene", "drive",   "seed",   "width",
+                                                       "height", "sync",  "threads", "frames", "dust_on"};
 
 using files::numberOf;
 

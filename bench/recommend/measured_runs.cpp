@@ -22,7 +22,7 @@ using files::CsvTable;
 using files::numberOf;
 
 constexpr std::array<std::string_view, 5> neededColumns{"run_id", "status", "method", "scene", "seed"};
-constexpr std::array<std::string_view, 3> conductColumns{"sync", "threads", "frames"};
+constexpr std::array<std::string_view, 4> conductColumns{"sync", "threads", "frames", "dust_on"};
 /// Settings of a world that summary.csv lacks, by their names in a run's key.
 constexpr std::array<std::string_view, 3> worldOfKey{"camera_path", "dust", "dust_columns"};
 

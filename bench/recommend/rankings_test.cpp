@@ -37,6 +37,7 @@ TEST(Rankings, NeverMixWorlds) {
 
 TEST(Rankings, NeverMixWaysOfTiming) {
     EXPECT_THAT(rankOf({{.ms = "1", .psnr = "30"}, {.ms = "9", .psnr = "30", .frames = "400"}}).rankings, SizeIs(2));
+    EXPECT_THAT(rankOf({{.ms = "1", .psnr = "30"}, {.ms = "9", .psnr = "30", .dustOn = "gpu"}}).rankings, SizeIs(2));
 }
 
 TEST(Rankings, NeverMixReferences) {

@@ -89,7 +89,7 @@ results::StoredRun standIn(const Ranking& ranking, const MeasuredSetting& settin
     run.cells = {{"method", setting.method}};
     for (const SettingTexts* settings : {&ranking.world, &ranking.conduct})
         for (const auto& [name, value] : *settings) run.parameters[name] = value;
-    for (const char* cell : {"scene", "drive", "sync", "threads", "frames"})
+    for (const char* cell : {"scene", "drive", "sync", "threads", "frames", "dust_on"})
         if (const auto found = run.parameters.extract(cell)) run.cells.emplace(cell, found.mapped());
     if (const auto size = run.parameters.extract("size")) {
         const std::size_t x = size.mapped().find('x');

@@ -14,19 +14,20 @@ namespace dustbench::recommend {
 struct TestRow {
     std::string method = "a", ms{}, psnr{};
     int particles = 500, seed = 1, repetition = 1;
-    std::string status = "done", invalid{}, size = "320", frames = "40", reference = "exact", depth = "8";
+    std::string status = "done", invalid{}, size = "320", frames = "40", reference = "exact", depth = "8",
+                dustOn = "cpu";
 };
 
 inline std::string tableOf(const std::vector<TestRow>& rows) {
     std::string text =
         "run_id,status,method,scene,drive,seed,repetition,width,height,sync,threads,frames,p.particles,p.depth,"
-        "method_ms_median,psnr_mask_db,rmse_linear_mask,popping,metric_reference,invalid\n";
+        "method_ms_median,psnr_mask_db,rmse_linear_mask,popping,metric_reference,invalid,dust_on\n";
     int index = 0;
     for (const TestRow& row : rows)
-        text += fmt::format("run{},{},{},plain,straight,{},{},{},240,frame,2,{},{},{},{},{},{},{},{},{}\n", ++index,
+        text += fmt::format("run{},{},{},plain,straight,{},{},{},240,frame,2,{},{},{},{},{},{},{},{},{},{}\n", ++index,
                             row.status, row.method, row.seed, row.repetition, row.size, row.frames, row.particles,
                             row.depth, row.ms, row.psnr, row.psnr.empty() ? "" : "0.01", row.psnr.empty() ? "" : "0.5",
-                            row.psnr.empty() ? "" : row.reference, row.invalid);
+                            row.psnr.empty() ? "" : row.reference, row.invalid, row.dustOn);
     return text;
 }
 

@@ -112,6 +112,17 @@ TEST(Experiments, PutRepetitionsIntoOneCellAndNameWhatDiffers) {
     EXPECT_DOUBLE_EQ(cell->values.at("frame_ms_median").median, 11.5);
 }
 
+TEST(Experiments, KeepDustOnTheGpuApart) {
+    results::StoredRun onCpu = run("haze", 100, 1, 3), onGpu = onCpu;
+    onCpu.cells.emplace("dust_on", "cpu");
+    onGpu.cells.emplace("dust_on", "gpu");
+    const RunGroup group = makeGroup({&onCpu, &onGpu}, {});
+    ASSERT_EQ(group.axes.size(), 1u);
+    EXPECT_EQ(group.axes[0].name, "dust_on");
+    EXPECT_TRUE(group.axes[0].world);
+    EXPECT_EQ(group.cells.size(), 2u);
+}
+
 TEST(Experiments, FindTheExponentOfACost) {
     results::StoredRuns runs;
     for (const int particles : {100, 200, 400, 800, 1600})

@@ -24,7 +24,7 @@ using files::numberOf;
 using Settings = std::map<std::string, std::string, std::less<>>;
 
 /// Columns of summary.csv that describe the world and the run; `size` replaces width and height.
-constexpr std::array<std::string_view, 6> worldCells{"scene", "drive", "seed", "sync", "threads", "frames"};
+constexpr std::array<std::string_view, 7> worldCells{"scene", "drive", "seed", "sync", "threads", "frames", "dust_on"};
 /// Columns whose growth with a load is fitted.
 constexpr std::array<std::string_view, 3> fittedColumns{"frame_ms_median", "build_ms_median", "sort_ms_median"};
 

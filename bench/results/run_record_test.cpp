@@ -155,7 +155,9 @@ TEST(Summary, EveryMeasuredColumnIsOneOfTheTable) {
     RunRecord record;
     std::vector<std::string> known = columnsBeforeParameters();
     known.insert(known.end(), columnsAfterParameters().begin(), columnsAfterParameters().end());
+    record.provenance.dustOn.place = "gpu";
     Columns columns = identityColumns(record, 1);
+    EXPECT_THAT(columns, testing::Contains(Columns::value_type("dust_on", "gpu")));
     for (auto& column : measuredColumns({}, WholeRun())) columns.push_back(column);
     for (const auto& [name, value] : columns) EXPECT_THAT(known, testing::Contains(name));
 }

@@ -88,6 +88,8 @@ const std::vector<std::string>& columnsAfterParameters() {
         addMetrics();
         add({"run_s", "gpu_mhz_min", "gpu_mhz_max"});
         addMetrics();
+        add({"dust_on"});
+        addMetrics();
         for (const MethodFact& fact : methodFacts()) list.push_back(fact.info.name);
         return list;
     }();
@@ -98,7 +100,7 @@ const std::vector<std::string>& numericColumns() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> list = columnsAfterParameters();
         std::erase_if(list, [](const std::string& name) {
-            return name.starts_with("FILE_") || name == "metric_reference" || name == "invalid";
+            return name.starts_with("FILE_") || name == "metric_reference" || name == "invalid" || name == "dust_on";
         });
         return list;
     }();
@@ -124,7 +126,8 @@ Columns identityColumns(const RunRecord& record, int threads) {
             {"width", std::int64_t{spec.size.width}},
             {"height", std::int64_t{spec.size.height}},
             {"sync", std::string(syncs.wordOf(spec.sync))},
-            {"threads", std::int64_t{threads}}};
+            {"threads", std::int64_t{threads}},
+            {"dust_on", record.provenance.dustOn.place}};
 }
 
 Columns measuredColumns(std::span<const measure::FrameRecord> frames, const WholeRun& run) {
