@@ -4,15 +4,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <openvdb/openvdb.h>
-#include <openvdb/points/PointAttribute.h>
-#include <openvdb/points/PointConversion.h>
 
 #include <map>
 
 #include "methods/contract/errors.h"
 #include "methods/kit/testing/test_folder.h"
 #include "methods/kit/testing/test_input_error.h"
+#include "methods/kit/volumes/openvdb/test_grids.h"
 #include "methods/kit/volumes/volume_file.h"
 #include "source_folder.h"
 
@@ -23,14 +21,13 @@ using testing::HasSubstr;
 
 constexpr int count = 500;
 
-openvdb::Vec3f placeOf(int i) {
+glm::vec3 placeOf(int i) {
     const int column = i % 10, row = i / 10;
     return {0.1f * static_cast<float>(column), 0.3f * static_cast<float>(row), -0.01f * static_cast<float>(i)};
 }
 
 std::string writtenPoints(const TestFolder& folder) {
-    openvdb::initialize();
-    std::vector<openvdb::Vec3f> places;
+    std::vector<glm::vec3> places;
     std::vector<float> radii;
     std::vector<int> ids;
     for (int i = 0; i < count; ++i) {
@@ -38,21 +35,10 @@ std::string writtenPoints(const TestFolder& folder) {
         radii.push_back(0.01f * static_cast<float>(i + 1));
         ids.push_back(i);
     }
-    using namespace openvdb::points;
-    const PointAttributeVector<openvdb::Vec3f> wrapper(places);
-    const auto transform = openvdb::math::Transform::createLinearTransform(0.25);
-    const auto index = openvdb::tools::createPointIndexGrid<openvdb::tools::PointIndexGrid>(wrapper, *transform);
-    const auto grid = createPointDataGrid<NullCodec, PointDataGrid>(*index, wrapper, *transform);
-    appendAttribute<float>(grid->tree(), "pscale");
-    appendAttribute<int>(grid->tree(), "id");
-    appendGroup(grid->tree(), "some");
-    const PointAttributeVector<float> radiusWrapper(radii);
-    const PointAttributeVector<int> idWrapper(ids);
-    populateAttribute(grid->tree(), index->tree(), "pscale", radiusWrapper);
-    populateAttribute(grid->tree(), index->tree(), "id", idWrapper);
-    grid->insertMeta("time_s", openvdb::DoubleMetadata(1.5));
+    AnyTestGrid grid = pointsGrid(places, radii, ids, /*cellSize=*/0.25);
+    grid.setTime(1.5);
     const std::string file = folder.path() / "points.vdb";
-    openvdb::io::File(file).write({grid});
+    writeVdb(file, {grid});
     return file;
 }
 
@@ -89,18 +75,15 @@ TEST(VdbPoints, WhatHasNoPointsOrIsCutIsRefused) {
         EXPECT_THAT(inputError([&] { (void)readAll(cut); }), HasSubstr("cut.vdb: not a complete OpenVDB file"));
     }
     const std::string other = folder.path() / "other.vdb";
-    openvdb::io::File(other).write({openvdb::FloatGrid::create()});
+    writeVdb(other, {TestGrid<float>()});
     EXPECT_THAT(inputError([&] { (void)readAll(other); }), HasSubstr("it has no grid of points"));
 }
 
 using testing::HasSubstr;
 
-std::string writtenVdb(const TestFolder& folder, const openvdb::Vec3SGrid::Ptr& grid) {
-    grid->setName("velocity");
+std::string writtenVdb(const TestFolder& folder, const TestGrid<glm::vec3>& grid) {
     const std::string path = folder.path() / "a.vdb";
-    openvdb::io::File file(path);
-    file.setCompression(openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK);
-    file.write({grid});
+    writeVdb(path, {grid}, /*isZipped=*/true);
     return path;
 }
 
@@ -109,23 +92,20 @@ std::string limitRefusal(const std::string& file) {
 }
 
 TEST(VdbLimits, BoxesOfManyCellsAreRefused) {
-    openvdb::initialize();
     const TestFolder folder;
-    const auto grid = openvdb::Vec3SGrid::create();
-    grid->getAccessor().setValue({0, 0, 0}, {1, 2, 3});
-    grid->getAccessor().setValue({99, 99, 8'900}, {1, 2, 3});  // 8,901 layers of 10,000
+    TestGrid<glm::vec3> grid("velocity");
+    grid.set({0, 0, 0}, {1, 2, 3});
+    grid.set({99, 99, 8'900}, {1, 2, 3});  // 8,901 layers of 10,000
     EXPECT_THAT(limitRefusal(writtenVdb(folder, grid)),
                 HasSubstr("the box of its vectors has more than 89 million cells"));
 }
 
 TEST(VdbLimits, LayersArriveInOrder) {
-    openvdb::initialize();
     const TestFolder folder;
-    const auto grid = openvdb::Vec3SGrid::create();
+    TestGrid<glm::vec3> grid("velocity");
     // Starts below zero, and is not a whole number of slabs.
     for (int z = -5; z < 16; ++z)
-        for (int x = 0; x < 3; ++x)
-            grid->getAccessor().setValue({x, 0, z}, {0.5f + static_cast<float>(x), 0.25f, static_cast<float>(z)});
+        for (int x = 0; x < 3; ++x) grid.set({x, 0, z}, {0.5f + static_cast<float>(x), 0.25f, static_cast<float>(z)});
     const VectorGrid read = readVectors(writtenVdb(folder, grid), "velocity");
     ASSERT_EQ(read.cells, glm::ivec3(3, 1, 21));
     for (int z = 0; z < 21; ++z)
@@ -136,10 +116,9 @@ TEST(VdbLimits, LayersArriveInOrder) {
 
 TEST(VdbLimits, ValuesThatAreAllAlikeAreNotTooMany) {
     // Compresses best: of all valid content, such leaves take the most memory for their bytes in the file.
-    openvdb::initialize();
     const TestFolder folder;
-    const auto grid = openvdb::Vec3SGrid::create();
-    grid->tree().denseFill(openvdb::CoordBBox(0, 0, 0, 199, 199, 199), {1, 2, 3}, true);
+    TestGrid<glm::vec3> grid("velocity");
+    grid.fill({0, 0, 0}, {199, 199, 199}, {1, 2, 3});
     const std::string file = writtenVdb(folder, grid);
     EXPECT_LT(std::filesystem::file_size(file), 3'200'000u) << "thirty times as much in memory";
     EXPECT_EQ(readVectors(file, "velocity").values.size(), 8'000'000u);

@@ -4,10 +4,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <openvdb/openvdb.h>
-#include <openvdb/tools/ChangeBackground.h>
-#include <openvdb/tools/LevelSetSphere.h>
-#include <openvdb/tools/LevelSetUtil.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -18,9 +14,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <glm/gtc/matrix_transform.hpp>
 #include <numeric>
 
 #include "methods/kit/testing/test_folder.h"
+#include "methods/kit/volumes/openvdb/test_grids.h"
 
 namespace dustbench::volumes {
 namespace {
@@ -31,38 +29,32 @@ std::string refusalOf(const std::filesystem::path& file, const VolumeFields& fie
     return inputError([&] { (void)readVolume(file, fields); });
 }
 
-std::string written(const TestFolder& folder, const openvdb::GridPtrVec& grids) {
+std::string written(const TestFolder& folder, const std::vector<AnyTestGrid>& grids) {
     const std::string path = folder.path() / "a.vdb";
-    openvdb::io::File(path).write(grids);
+    writeVdb(path, grids);
     return path;
 }
 
 /// A sphere from OpenVDB, as the distance to its surface.
-openvdb::FloatGrid::Ptr sphere() {
-    openvdb::initialize();
-    const auto grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(
-        /*radius=*/2, /*centre=*/openvdb::Vec3f(1, 2, 3), /*voxelSize=*/0.125f);
-    grid->setName("density");
+TestGrid<float> sphere() {
+    TestGrid<float> grid = levelSetSphere(/*radius=*/2, /*centre=*/{1, 2, 3}, /*cellSize=*/0.125f);
+    grid.setName("density");
     return grid;
 }
 
-openvdb::FloatGrid::Ptr fog() {
-    const auto grid = sphere();
-    openvdb::tools::sdfToFogVolume(*grid);
+TestGrid<float> fog() {
+    TestGrid<float> grid = sphere();
+    makeFog(grid);
     return grid;
 }
 
-float valueAt(const openvdb::FloatGrid& grid, const VolumeGrid& read, const glm::ivec3& cell) {
-    const glm::dvec3 place = read.origin + read.spacing * (glm::dvec3(cell) + 0.5);
-    const openvdb::Vec3d index = grid.worldToIndex({place.x, place.y, place.z});
-    return grid.tree().getValue(openvdb::Coord::round(index));
+float valueAt(const TestGrid<float>& grid, const VolumeGrid& read, const glm::ivec3& cell) {
+    return grid.valueAt(read.origin + read.spacing * (glm::dvec3(cell) + 0.5));
 }
 
-void expectSame(const openvdb::FloatGrid& grid, const VolumeGrid& read) {
+void expectSame(const TestGrid<float>& grid, const VolumeGrid& read) {
     ASSERT_EQ(read.density.size(), read.cellCount());
-    double sum = 0;
-    for (auto value = grid.cbeginValueOn(); value; ++value)
-        sum += static_cast<double>(*value) * static_cast<double>(value.getVoxelCount());
+    const double sum = grid.sumOfActive();
     EXPECT_NEAR(std::accumulate(read.density.begin(), read.density.end(), 0.0), sum, 1e-6 * sum);
     for (int z = 0; z < read.cells.z; ++z)
         for (int y = 0; y < read.cells.y; ++y)
@@ -72,29 +64,26 @@ void expectSame(const openvdb::FloatGrid& grid, const VolumeGrid& read) {
 
 TEST(VolumeFile, ReadsTheFogThatOpenVdbMadeOfASphereAndMakesTheSameOfTheSphereItself) {
     const TestFolder folder;
-    const auto grid = fog();
-    grid->insertMeta("time_s", openvdb::DoubleMetadata(1.5));
-    grid->setSaveFloatAsHalf(false);
+    auto grid = fog();
+    grid.setTime(1.5);
+    grid.setSavedAsHalf(false);
     const VolumeGrid read = readVolume(written(folder, {grid}), {});
     EXPECT_EQ(read.timeSeconds, 1.5);
     EXPECT_FLOAT_EQ(static_cast<float>(read.spacing), 0.125f);
-    expectSame(*grid, read);
-    expectSame(*grid, readVolume(written(folder, {sphere()}), {}));
+    expectSame(grid, read);
+    expectSame(grid, readVolume(written(folder, {sphere()}), {}));
 }
 
 TEST(VolumeFile, ReadsTemperatureAndVelocityInTheDensitysCells) {
     const TestFolder folder;
     const auto density = fog();
-    const auto heat = openvdb::FloatGrid::create();
-    const auto velocity = openvdb::Vec3SGrid::create(), staggered = openvdb::Vec3SGrid::create();
-    heat->setTransform(density->transformPtr());
-    velocity->setTransform(density->transformPtr());
-    heat->getAccessor().setValue({8, 16, 24}, 900);  // at (1, 2, 3), the middle
-    velocity->getAccessor().setValue({8, 16, 24}, {1, 2, 3});
-    staggered->getAccessor().setValue({8, 16, 24}, {1, 2, 3});  // cells of another edge
-    heat->setName("heat");
-    velocity->setName("vel");
-    staggered->setName("v");
+    TestGrid<float> heat("heat");
+    TestGrid<glm::vec3> velocity("vel"), staggered("v");
+    heat.setCellSize(0.125);
+    velocity.setCellSize(0.125);
+    heat.set({8, 16, 24}, 900);  // at (1, 2, 3), the middle
+    velocity.set({8, 16, 24}, {1, 2, 3});
+    staggered.set({8, 16, 24}, {1, 2, 3});  // cells of another edge
     const std::string file = written(folder, {density, heat, velocity, staggered});
     const VolumeGrid read = readVolume(file, {});
     ASSERT_EQ(read.temperature.size(), read.cellCount());
@@ -113,10 +102,10 @@ TEST(VolumeFile, ReadsTemperatureAndVelocityInTheDensitysCells) {
 
 TEST(VolumeFile, TakesTheOnlyFieldOfNumbersWhateverItsName) {
     const TestFolder folder;
-    const auto one = fog(), two = fog();
-    one->setName("cumulus");
+    auto one = fog(), two = fog();
+    one.setName("cumulus");
     EXPECT_NO_THROW((void)readVolume(written(folder, {one}), {}));
-    two->setName("cirrus");
+    two.setName("cirrus");
     const std::string both = written(folder, {one, two});
     EXPECT_THAT(refusalOf(both), HasSubstr("it has no field of numbers 'density'; it has: cumulus, cirrus"));
     VolumeFields fields;
@@ -126,45 +115,38 @@ TEST(VolumeFile, TakesTheOnlyFieldOfNumbersWhateverItsName) {
 
 TEST(VolumeFile, RefusesWhatIsNoDensityOnCubesAlongTheAxes) {
     const TestFolder folder;
-    const auto with = [&](const std::function<void(openvdb::FloatGrid&)>& change) {
-        const auto grid = fog();
-        change(*grid);
+    const auto with = [&](const std::function<void(TestGrid<float>&)>& change) {
+        auto grid = fog();
+        change(grid);
         return refusalOf(written(folder, {grid}));
     };
-    const auto transformed = [](const openvdb::math::Mat4d& matrix) {
-        return [matrix](openvdb::FloatGrid& grid) {
-            grid.setTransform(openvdb::math::Transform::createLinearTransform(matrix));
-        };
+    const auto transformed = [](const glm::dmat4& matrix) {
+        return [matrix](TestGrid<float>& grid) { grid.setTransform(matrix); };
     };
-    auto turned = openvdb::math::Mat4d::identity(), flat = turned;
-    turned.preRotate(openvdb::math::Y_AXIS, 0.3);
-    flat.preScale(openvdb::Vec3d(1, 2, 1));
+    const glm::dmat4 turned = glm::rotate(glm::dmat4(1), 0.3, glm::dvec3(0, 1, 0));
+    const glm::dmat4 flat = glm::scale(glm::dmat4(1), glm::dvec3(1, 2, 1));
     EXPECT_THAT(with(transformed(turned)), HasSubstr("its grid is turned"));
     EXPECT_THAT(with(transformed(flat)), HasSubstr("its cells are not cubes"));
     EXPECT_THAT(with([](auto& grid) { grid.clear(); }), HasSubstr("its density is zero everywhere"));
-    EXPECT_THAT(with([](auto& grid) { openvdb::tools::changeBackground(grid.tree(), 0.5f); }),
-                HasSubstr("the background is 0.5"));
-    const auto negative = [](openvdb::FloatGrid& grid) { grid.getAccessor().setValue({0, 0, 0}, -0.4f); };
+    EXPECT_THAT(with([](auto& grid) { grid.changeBackground(0.5f); }), HasSubstr("the background is 0.5"));
+    const auto negative = [](TestGrid<float>& grid) { grid.set({0, 0, 0}, -0.4f); };
     EXPECT_THAT(with(negative), HasSubstr("it has a density of -0.4, allowed: 0 or more, or clamp_density"));
-    const auto clamped = fog();
-    negative(*clamped);
+    auto clamped = fog();
+    negative(clamped);
     VolumeFields clamps;
     clamps.clampsDensity = true;
     const VolumeGrid read = readVolume(written(folder, {clamped}), clamps);
     EXPECT_GE(*std::ranges::min_element(read.density), 0);
-    EXPECT_THAT(with([](auto& grid) { grid.getAccessor().setValue({0, 0, 0}, NAN); }), HasSubstr("is not a number"));
-    EXPECT_THAT(with([](auto& grid) {
-                    grid.getAccessor().setValue({4'000, 4'000, 4'000}, 1);
-                }),
-                HasSubstr("more than 256 million cells"));
+    EXPECT_THAT(with([](auto& grid) { grid.set({0, 0, 0}, NAN); }), HasSubstr("is not a number"));
+    EXPECT_THAT(with([](auto& grid) { grid.set({4'000, 4'000, 4'000}, 1); }), HasSubstr("more than 256 million cells"));
     EXPECT_THAT(refusalOf(folder.write("a.raw", "1")), HasSubstr("expected a file that ends in .vdb, .nvdb or .vti"));
     EXPECT_THAT(refusalOf(folder.path() / "none.vdb"), HasSubstr("none.vdb: "));
 }
 
 TEST(VolumeFile, ADensityBelowZeroByRoundingCountsAsZero) {
     const TestFolder folder;
-    const auto grid = fog();
-    grid->getAccessor().setValue({8, 16, 24}, -0.0005f);
+    auto grid = fog();
+    grid.set({8, 16, 24}, -0.0005f);
     const VolumeGrid read = readVolume(written(folder, {grid}), {});
     EXPECT_GE(*std::ranges::min_element(read.density), 0);
 }

@@ -1,14 +1,11 @@
-// Tests that inactive voxels of a grid, and vectors on faces, are read the same from .vdb and .nvdb. Separate from the
-// other tests, because the headers are slow to compile.
+// Tests that inactive voxels of a grid, and vectors on faces, are read the same from .vdb and .nvdb.
 #include <gtest/gtest.h>
-#include <nanovdb/util/IO.h>
-#include <nanovdb/util/OpenToNanoVDB.h>
-#include <openvdb/openvdb.h>
 
 #include <numeric>
 
 #include "methods/kit/files/input_log.h"
 #include "methods/kit/testing/test_folder.h"
+#include "methods/kit/volumes/openvdb/test_grids.h"
 #include "methods/kit/volumes/volume_file.h"
 
 namespace dustbench::volumes {
@@ -17,45 +14,34 @@ namespace {
 constexpr int edge = 4;
 
 /// A cube of 4x4x4 voxels with values by position.
-template <typename Grid, typename Value>
-typename Grid::Ptr cubeOf(const char* name, openvdb::GridClass is, const Value& valueAt,
-                          typename Grid::ValueType background = openvdb::zeroVal<typename Grid::ValueType>()) {
-    openvdb::initialize();
-    const auto grid = Grid::create(background);
-    auto values = grid->getAccessor();
+template <typename Value, typename ValueAt>
+TestGrid<Value> cubeOf(const char* name, const char* is, const ValueAt& valueAt, const Value& background = Value()) {
+    TestGrid<Value> grid(name, background);
     for (int z = 0; z < edge; ++z)
         for (int y = 0; y < edge; ++y)
-            for (int x = 0; x < edge; ++x) values.setValue({x, y, z}, valueAt(openvdb::Coord(x, y, z)));
-    grid->setName(name);
-    grid->setGridClass(is);
+            for (int x = 0; x < edge; ++x) grid.set({x, y, z}, valueAt(glm::ivec3(x, y, z)));
+    grid.setClass(is);
     return grid;
 }
 
-openvdb::FloatGrid::Ptr evenDensity(openvdb::GridClass is = openvdb::GRID_FOG_VOLUME) {
-    return cubeOf<openvdb::FloatGrid>("density", is, [](const openvdb::Coord&) { return 1.0f; });
+TestGrid<float> evenDensity(const char* is = "fog volume") {
+    return cubeOf<float>("density", is, [](const glm::ivec3&) { return 1.0f; });
 }
 
 /// The grids in both formats.
-std::vector<VolumeGrid> readBoth(const TestFolder& folder, const openvdb::GridPtrVec& grids) {
-    openvdb::io::File(folder.path() / "a.vdb").write(grids);
-    std::vector<nanovdb::GridHandle<nanovdb::HostBuffer>> handles;
-    for (const openvdb::GridBase::Ptr& grid : grids)
-        if (const auto numbers = openvdb::gridPtrCast<openvdb::FloatGrid>(grid))
-            handles.push_back(nanovdb::OpenToNanoVDB<float, float>()(*numbers));
-        else
-            handles.push_back(nanovdb::OpenToNanoVDB<openvdb::Vec3f, nanovdb::Vec3f>()(
-                *openvdb::gridPtrCast<openvdb::Vec3SGrid>(grid)));
-    nanovdb::io::writeGrids(folder.path() / "a.nvdb", handles);
+std::vector<VolumeGrid> readBoth(const TestFolder& folder, const std::vector<AnyTestGrid>& grids) {
+    writeVdb(folder.path() / "a.vdb", grids);
+    writeNanoVdb(folder.path() / "a.nvdb", grids);
     return {readVolume(folder.path() / "a.vdb", {}), readVolume(folder.path() / "a.nvdb", {})};
 }
 
 TEST(VoxelState, AVoxelThatIsSwitchedOffHasNoDensityWhateverValueWasLeft) {
     const TestFolder folder;
-    for (const auto is : {openvdb::GRID_FOG_VOLUME, openvdb::GRID_UNKNOWN})
+    for (const char* is : {"fog volume", "unknown"})
         for (const int layer : {0, 2}) {  // at the rim, which shrinks the box, and inside
-            const auto density = evenDensity(is);
+            auto density = evenDensity(is);
             for (int z = 0; z < edge; ++z)
-                for (int y = 0; y < edge; ++y) density->getAccessor().setValueOff({layer, y, z});
+                for (int y = 0; y < edge; ++y) density.switchOff({layer, y, z});
             for (const VolumeGrid& read : readBoth(folder, {density}))
                 EXPECT_EQ(std::accumulate(read.density.begin(), read.density.end(), 0.0f), 48) << is << ' ' << layer;
         }
@@ -63,9 +49,9 @@ TEST(VoxelState, AVoxelThatIsSwitchedOffHasNoDensityWhateverValueWasLeft) {
 
 TEST(VoxelState, ATemperatureThatIsSwitchedOffIsTheBackground) {
     const TestFolder folder;
-    const auto heat = cubeOf<openvdb::FloatGrid>(
-        "temperature", openvdb::GRID_UNKNOWN, [](const openvdb::Coord&) { return 900.0f; }, 300.0f);
-    heat->getAccessor().setValueOff({1, 2, 3});
+    auto heat = cubeOf<float>(
+        "temperature", "unknown", [](const glm::ivec3&) { return 900.0f; }, /*background=*/300);
+    heat.switchOff({1, 2, 3});
     for (const VolumeGrid& read : readBoth(folder, {evenDensity(), heat})) {
         ASSERT_EQ(read.temperature.size(), 64u);
         EXPECT_EQ(read.temperature[read.indexOf({1, 2, 3})], 300);
@@ -75,22 +61,20 @@ TEST(VoxelState, ATemperatureThatIsSwitchedOffIsTheBackground) {
 
 TEST(VoxelState, LatticesThatDifferByRoundingAreOne) {
     const TestFolder folder;
-    const auto heat =
-        cubeOf<openvdb::FloatGrid>("temperature", openvdb::GRID_UNKNOWN, [](const openvdb::Coord&) { return 900.0f; });
-    const auto density = evenDensity();
-    density->setTransform(openvdb::math::Transform::createLinearTransform(0.1));
-    heat->setTransform(openvdb::math::Transform::createLinearTransform(0.1 * (1 + 1e-7)));
+    auto heat = cubeOf<float>("temperature", "unknown", [](const glm::ivec3&) { return 900.0f; });
+    auto density = evenDensity();
+    density.setCellSize(0.1);
+    heat.setCellSize(0.1 * (1 + 1e-7));
     for (const VolumeGrid& read : readBoth(folder, {density, heat})) EXPECT_EQ(read.temperature.size(), 64u);
-    heat->setTransform(openvdb::math::Transform::createLinearTransform(0.101));
+    heat.setCellSize(0.101);
     for (const VolumeGrid& read : readBoth(folder, {density, heat})) EXPECT_TRUE(read.temperature.empty());
 }
 
 TEST(VoxelState, OfTwoTemperaturesTheOneInTheDensitysCellsIsTaken) {
     const TestFolder folder;
     const auto valued = [](const char* name, float value, double size) {
-        const auto grid =
-            cubeOf<openvdb::FloatGrid>(name, openvdb::GRID_UNKNOWN, [value](const openvdb::Coord&) { return value; });
-        grid->setTransform(openvdb::math::Transform::createLinearTransform(size));
+        auto grid = cubeOf<float>(name, "unknown", [value](const glm::ivec3&) { return value; });
+        grid.setCellSize(size);
         return grid;
     };
     for (const VolumeGrid& read :
@@ -106,11 +90,9 @@ TEST(VoxelState, OfTwoTemperaturesTheOneInTheDensitysCellsIsTaken) {
 }
 
 /// Each component is linear along its own axis: 0.1, 0.2 and 0.3 per voxel.
-openvdb::Vec3SGrid::Ptr slopes(openvdb::GridClass is) {
-    return cubeOf<openvdb::Vec3SGrid>("velocity", is, [](const openvdb::Coord& at) {
-        return openvdb::Vec3s(0.1f * static_cast<float>(at.x()), 0.2f * static_cast<float>(at.y()),
-                              0.3f * static_cast<float>(at.z()));
-    });
+TestGrid<glm::vec3> slopes(const char* is) {
+    return cubeOf<glm::vec3>("velocity", is,
+                             [](const glm::ivec3& at) { return glm::vec3(0.1f, 0.2f, 0.3f) * glm::vec3(at); });
 }
 
 TEST(VoxelState, StaggeredVelocitiesAreTheMeansOfTheirTwoFaces) {
@@ -128,7 +110,7 @@ TEST(VoxelState, StaggeredVelocitiesAreTheMeansOfTheirTwoFaces) {
                     }
                 }
     };
-    for (const auto& [is, offset] : {std::pair(openvdb::GRID_STAGGERED, 0.5f), {openvdb::GRID_UNKNOWN, 0.0f}}) {
+    for (const auto& [is, offset] : {std::pair("staggered", 0.5f), {"unknown", 0.0f}}) {
         for (const VolumeGrid& read : readBoth(folder, {evenDensity(), slopes(is)}))
             expectSlopes(read, read.velocity, offset);
         const VectorGrid vectors = readVectors(folder.path() / "a.vdb", "velocity");

@@ -2,11 +2,11 @@
 // refused and both are named.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <openvdb/openvdb.h>
 
 #include <string>
 
 #include "methods/kit/testing/test_folder.h"
+#include "methods/kit/volumes/openvdb/test_grids.h"
 #include "methods/kit/volumes/volume_file.h"
 
 namespace dustbench::volumes {
@@ -121,38 +121,33 @@ TEST(WhichField, VectorsAreFoundAtThePointsToo) {
     EXPECT_EQ(read.values[1], glm::vec3(4, 5, 6));
 }
 
-template <typename Grid>
-typename Grid::Ptr gridOfOneCell(const char* name, typename Grid::ValueType value) {
-    openvdb::initialize();
-    const auto grid = Grid::create();
-    grid->getAccessor().setValue({0, 0, 0}, value);
-    grid->setName(name);
+template <typename Value>
+TestGrid<Value> gridOfOneCell(const char* name, const Value& value) {
+    TestGrid<Value> grid(name);
+    grid.set({0, 0, 0}, value);
     return grid;
 }
 
 TEST(WhichField, TwoVdbGridsOfANameAreRefused) {
     const TestFolder folder;
     const std::string file = folder.path() / "a.vdb";
-    const auto refusal = [&](const openvdb::GridPtrVec& grids) {
-        openvdb::io::File(file).write(grids);
+    const auto refusal = [&](const std::vector<AnyTestGrid>& grids) {
+        writeVdb(file, grids);
         return inputError([&] { (void)readVolume(file, {}); });
     };
-    const auto one = gridOfOneCell<openvdb::FloatGrid>("density", 1),
-               two = gridOfOneCell<openvdb::FloatGrid>("density", 2);
+    const auto one = gridOfOneCell<float>("density", 1), two = gridOfOneCell<float>("density", 2);
     EXPECT_THAT(refusal({one, two}), HasSubstr("density (grid 1 of float), density (grid 2 of float)"));
     VolumeFields second;
     second.density = "density (grid 2 of float)";
     EXPECT_THAT(readVolume(file, second).density, ElementsAre(2));
-    EXPECT_THAT(refusal({one, gridOfOneCell<openvdb::FloatGrid>("smoke", 1)}), HasSubstr("density, smoke"));
-    EXPECT_THAT(
-        refusal({one, gridOfOneCell<openvdb::Vec3SGrid>("v", {}), gridOfOneCell<openvdb::Vec3SGrid>("vel", {})}),
-        HasSubstr("more than one field of vectors for its velocity: v, vel"));
-    EXPECT_THAT(refusal({gridOfOneCell<openvdb::FloatGrid>("", 1), gridOfOneCell<openvdb::FloatGrid>("", 1)}),
+    EXPECT_THAT(refusal({one, gridOfOneCell<float>("smoke", 1)}), HasSubstr("density, smoke"));
+    EXPECT_THAT(refusal({one, gridOfOneCell<glm::vec3>("v", {}), gridOfOneCell<glm::vec3>("vel", {})}),
+                HasSubstr("more than one field of vectors for its velocity: v, vel"));
+    EXPECT_THAT(refusal({gridOfOneCell<float>("", 1), gridOfOneCell<float>("", 1)}),
                 HasSubstr("it has: (no name) (grid 1 of float), (no name) (grid 2 of float)"));
-    EXPECT_THAT(refusal({gridOfOneCell<openvdb::Int32Grid>("density", 1)}),
+    EXPECT_THAT(refusal({gridOfOneCell<int>("density", 1)}),
                 HasSubstr("'density' (grid 1 of int32) does not contain one floating-point number per cell"));
-    openvdb::io::File(file).write(
-        {gridOfOneCell<openvdb::Vec3SGrid>("wind", {1, 2, 3}), gridOfOneCell<openvdb::Vec3SGrid>("wind", {4, 5, 6})});
+    writeVdb(file, {gridOfOneCell<glm::vec3>("wind", {1, 2, 3}), gridOfOneCell<glm::vec3>("wind", {4, 5, 6})});
     EXPECT_THAT(inputError([&] { (void)readVectors(file, "wind"); }),
                 HasSubstr("wind (grid 1 of vec3s), wind (grid 2"));
 }
@@ -160,14 +155,14 @@ TEST(WhichField, TwoVdbGridsOfANameAreRefused) {
 TEST(VdbTime, IsAFloatOrADouble) {
     const TestFolder folder;
     const std::string file = folder.path() / "a.vdb";
-    for (const auto& [time, seconds] : std::vector<std::pair<openvdb::Metadata::Ptr, double>>{
-             {std::make_shared<openvdb::FloatMetadata>(0.25f), 0.25},
-             {std::make_shared<openvdb::DoubleMetadata>(0.1), 0.1}}) {
-        const auto grid = gridOfOneCell<openvdb::FloatGrid>("density", 1);
-        grid->insertMeta("time_s", *time);
-        openvdb::io::File(file).write({grid});
+    const auto expectTime = [&](auto time, double seconds) {
+        auto grid = gridOfOneCell<float>("density", 1);
+        grid.setTime(time);
+        writeVdb(file, {grid});
         EXPECT_EQ(readVolume(file, {}).timeSeconds, seconds);
-    }
+    };
+    expectTime(0.25f, 0.25);
+    expectTime(0.1, 0.1);
 }
 
 }  // namespace

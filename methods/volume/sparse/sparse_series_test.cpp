@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <openvdb/openvdb.h>
 
 #include <cmath>
 #include <random>
@@ -13,6 +12,7 @@
 #include "methods/kit/draw/test_canvas.h"
 #include "methods/kit/testing/test_folder.h"
 #include "methods/kit/testing/test_input_error.h"
+#include "methods/kit/volumes/openvdb/test_grids.h"
 #include "methods/kit/volumes/volume_series.h"
 #include "methods/volume/sparse/nano_walk.h"
 #include "methods/volume/sparse/sparse_storage.h"
@@ -21,31 +21,28 @@ namespace dustbench::volume {
 namespace {
 
 using testing::HasSubstr;
+using FloatGrid = volumes::TestGrid<float>;
 
-std::string writtenVdb(const TestFolder& folder, const std::string& name, const openvdb::GridPtrVec& grids) {
-    openvdb::initialize();
+std::string writtenVdb(const TestFolder& folder, const std::string& name, const std::vector<FloatGrid>& grids) {
     const std::string path = folder.path() / name;
-    openvdb::io::File(path).write(grids);
+    volumes::writeVdb(path, {grids.begin(), grids.end()});
     return path;
 }
 
 /// Clusters of cells with density, and a larger set with temperature, around `middle`.
-openvdb::GridPtrVec clusters(unsigned seed, const openvdb::Coord& middle, bool hot, double time) {
-    openvdb::initialize();
+std::vector<FloatGrid> clusters(unsigned seed, const glm::ivec3& middle, bool hot, double time) {
     std::mt19937 random(seed);
-    const auto density = openvdb::FloatGrid::create(), heat = openvdb::FloatGrid::create(/*background=*/300);
-    density->setName("density");
-    heat->setName("temperature");
-    density->insertMeta("time_s", openvdb::DoubleMetadata(time));
+    FloatGrid density("density"), heat("temperature", /*background=*/300);
+    density.setTime(time);
     for (int cluster = 0; cluster < 7; ++cluster) {
         const auto within = [&](int cells) { return static_cast<int>(random() % static_cast<unsigned>(cells)); };
-        const openvdb::Coord at = middle.offsetBy(within(60) - 30, within(50) - 25, within(80) - 40);
+        const glm::ivec3 at = middle + glm::ivec3(within(60) - 30, within(50) - 25, within(80) - 40);
         for (int i = 0; i < 200; ++i) {
-            const openvdb::Coord cell = at.offsetBy(within(9), within(9), within(9));
-            density->getAccessor().setValue(cell, 0.25f + static_cast<float>(within(1000)) / 500);
+            const glm::ivec3 cell = at + glm::ivec3(within(9), within(9), within(9));
+            density.set(cell, 0.25f + static_cast<float>(within(1000)) / 500);
             for (int n = 0; n < 3; ++n)
-                heat->getAccessor().setValue(cell.offsetBy(within(5) - 2, within(5) - 2, within(5) - 2),
-                                             400 + static_cast<float>(within(1000)));
+                heat.set(cell + glm::ivec3(within(5) - 2, within(5) - 2, within(5) - 2),
+                         400 + static_cast<float>(within(1000)));
         }
     }
     if (hot) return {density, heat};
@@ -143,17 +140,15 @@ TEST(SparseSeries, ChangesEvenlyBetweenItsMomentsWhereverTheyLie) {
 
 /// Two balls of fog so far from each other that the box around them has 300 million cells.
 std::string farApart(const TestFolder& folder, double& sum) {
-    openvdb::initialize();
-    const auto grid = openvdb::FloatGrid::create();
-    grid->setName("density");
+    FloatGrid grid("density");
     sum = 0;
-    for (const openvdb::Coord& middle : {openvdb::Coord(-5, 3, -40), openvdb::Coord(475, 483, 1260)})
+    for (const glm::ivec3& middle : {glm::ivec3(-5, 3, -40), glm::ivec3(475, 483, 1260)})
         for (int i = 0; i < 17 * 17 * 17; ++i) {
             const glm::ivec3 from(i % 17 - 8, i / 17 % 17 - 8, i / 289 - 8);
             const auto density =
                 static_cast<float>(8 - std::sqrt(static_cast<double>(glm::dot(glm::dvec3(from), glm::dvec3(from)))));
             if (!(density > 0)) continue;
-            grid->getAccessor().setValue(middle.offsetBy(from.x, from.y, from.z), density);
+            grid.set(middle + from, density);
             sum += static_cast<double>(density);
         }
     return writtenVdb(folder, "far.vdb", {grid});
@@ -208,30 +203,29 @@ TEST(SparseStorage, ShowsWhatADenseOneCannotHoldButDoesNotHandOverItsBox) {
 
 TEST(SparseSeries, RefusesWhatADenseOneRefuses) {
     const TestFolder folder;
-    const auto refusal = [&](const openvdb::GridPtrVec& grids, bool hot = false) {
+    const auto refusal = [&](const std::vector<FloatGrid>& grids, bool hot = false) {
         const volumes::VolumeSetup setup = setupOf(writtenVdb(folder, "a.vdb", grids), hot);
         MemoryLedger ledger;
         const std::string sparse = inputError([&] { SparseSeries(setup, ledger); });
         EXPECT_EQ(sparse, inputError([&] { (void)volumes::VolumeSeries::read(setup); }));
         return sparse;
     };
-    auto grids = clusters(3, {0, 0, 0}, true, 0);
-    const auto density = openvdb::gridPtrCast<openvdb::FloatGrid>(grids[0]),
-               heat = openvdb::gridPtrCast<openvdb::FloatGrid>(grids[1]);
-    const auto with = [&](openvdb::FloatGrid& grid, float value, bool hot = false) {
-        const openvdb::FloatGrid::Ptr copy = grid.deepCopy();
-        copy->getAccessor().setValue(grid.evalActiveVoxelBoundingBox().min().offsetBy(5, 5, 5), value);
-        return refusal(&grid == &*density ? openvdb::GridPtrVec{copy, heat} : openvdb::GridPtrVec{density, copy}, hot);
+    const auto grids = clusters(3, {0, 0, 0}, true, 0);
+    const FloatGrid &density = grids[0], &heat = grids[1];
+    const auto with = [&](const FloatGrid& grid, float value, bool hot = false) {
+        FloatGrid copy = grid.deepCopy();
+        copy.set(grid.firstCell() + 5, value);
+        return refusal(&grid == &density ? std::vector{copy, heat} : std::vector{density, copy}, hot);
     };
-    EXPECT_THAT(with(*density, -0.5f), HasSubstr("it has a density of -0.5, allowed: 0 or more"));
-    EXPECT_THAT(with(*density, NAN), HasSubstr("it has a density that is not a number"));
+    EXPECT_THAT(with(density, -0.5f), HasSubstr("it has a density of -0.5, allowed: 0 or more"));
+    EXPECT_THAT(with(density, NAN), HasSubstr("it has a density that is not a number"));
     EXPECT_THAT(refusal({density}, true), HasSubstr("it has no field of numbers 'temperature'"));
     MemoryLedger ledger;
     EXPECT_EQ(inputError([&] { SparseSeries(setupOf(folder.write("a.raw", "1"), false), ledger); }),
               (folder.path() / "a.raw").string() + ": expected a file that ends in .vdb, .nvdb or .vti");
     // Overshoot counts as zero.
-    const openvdb::FloatGrid::Ptr overshoot = density->deepCopy();
-    overshoot->getAccessor().setValue({0, 0, 0}, -0.0005f);
+    FloatGrid overshoot = density.deepCopy();
+    overshoot.set({0, 0, 0}, -0.0005f);
     const volumes::VolumeSetup setup = setupOf(writtenVdb(folder, "b.vdb", {overshoot}), false);
     SparseSeries sparse(setup, ledger);
     volumes::VolumeGrid between;
@@ -240,12 +234,11 @@ TEST(SparseSeries, RefusesWhatADenseOneRefuses) {
 
 TEST(SparseSeries, RefusesBoxesBeyondItsOwnLimits) {
     const TestFolder folder;
-    const auto grid = openvdb::FloatGrid::create();
-    grid->setName("density");
-    grid->getAccessor().setValue({0, 0, 0}, 1);
-    const auto refusal = [&](const openvdb::Coord& other) {
-        const auto both = grid->deepCopy();
-        both->getAccessor().setValue(other, 1);
+    FloatGrid grid("density");
+    grid.set({0, 0, 0}, 1);
+    const auto refusal = [&](const glm::ivec3& other) {
+        auto both = grid.deepCopy();
+        both.set(other, 1);
         const volumes::VolumeSetup setup = setupOf(writtenVdb(folder, "a.vdb", {both}), false);
         MemoryLedger ledger;
         return inputError([&] { SparseSeries(setup, ledger); });
@@ -255,10 +248,9 @@ TEST(SparseSeries, RefusesBoxesBeyondItsOwnLimits) {
                 HasSubstr("it has 65537 cells along an axis, allowed: 65536 (limit of sparse volumes)"));
     // Moments on different lattices, or too far apart for one.
     (void)writtenVdb(folder, "s0.vdb", {grid});
-    const auto moment = [&](const openvdb::Vec3d& at) {
-        const auto moved = grid->deepCopy();
-        moved->setTransform(openvdb::math::Transform::createLinearTransform());
-        moved->transform().postTranslate(at);
+    const auto moment = [&](const glm::dvec3& at) {
+        auto moved = grid.deepCopy();
+        moved.translate(at);
         (void)writtenVdb(folder, "s1.vdb", {moved});
         volumes::VolumeSetup setup = setupOf(folder.path() / "s*.vdb", false);
         setup.secondsPerFile = 1;
