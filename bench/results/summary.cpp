@@ -86,9 +86,7 @@ const std::vector<std::string>& columnsAfterParameters() {
         addMetrics();
         add({"invalid"});
         addMetrics();
-        add({"run_s", "gpu_mhz_min", "gpu_mhz_max"});
-        addMetrics();
-        add({"dust_on"});
+        add({"run_s", "gpu_mhz_min", "gpu_mhz_max", "dust_on"});
         addMetrics();
         for (const MethodFact& fact : methodFacts()) list.push_back(fact.info.name);
         return list;
