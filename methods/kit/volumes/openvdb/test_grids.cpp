@@ -156,6 +156,7 @@ AnyTestGrid pointsGrid(const std::vector<glm::vec3>& places, const std::vector<f
     openvdb::initialize();
     using namespace openvdb::points;
     std::vector<openvdb::Vec3f> positions;
+    positions.reserve(places.size());
     for (const glm::vec3& place : places) positions.push_back(toVdb(place));
     const PointAttributeVector<openvdb::Vec3f> wrapper(positions);
     const auto transform = openvdb::math::Transform::createLinearTransform(cellSize);
