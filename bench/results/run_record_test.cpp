@@ -120,6 +120,22 @@ TEST(RunRecord, NumbersMustBeNumbers) {
     EXPECT_EQ(readChanged("12.5", "\"\"").cells.at("frame_ms_median"), "");
 }
 
+TEST(RunRecord, AnOlderRunHasItsDustWhereItsProvenanceSays) {
+    const auto file = std::filesystem::path(testing::TempDir()) / ("older-" + std::to_string(getpid()) + ".json");
+    RunRecord record;
+    record.spec = spec();
+    record.status = RunStatus::done;
+    record.provenance.dustOn.place = "gpu";
+    record.summary = identityColumns(record, 2);
+    std::erase_if(record.summary, [](const auto& column) { return column.first == "dust_on"; });
+    std::string text = toJson(record);
+    exports::writeWhole(file, text);
+    EXPECT_EQ(readRunFile(file).cells.at("dust_on"), "gpu");
+    const std::string place = "\"dust_on\": \"gpu\"";
+    exports::writeWhole(file, text.replace(text.rfind(place), place.size(), "\"older\": \"\""));
+    EXPECT_EQ(readRunFile(file).cells.at("dust_on"), "cpu");
+}
+
 TEST(RunRecord, OutputsSurviveTheFileAndStayBelowItsFolder) {
     RunRecord record;
     record.spec = spec();

@@ -127,6 +127,11 @@ StoredRun readRunFile(const std::filesystem::path& file) {
         run.stateHash = textOfCell(json["state_hash"]);
         run.methodHash = textOfCell(json["method_hash"]);
         readCells(json["provenance"], run.provenance);
+        if (run.status == RunStatus::done && !run.cells.contains("dust_on")) {
+            // An older run: its provenance has the place, or it is from the time before there was dust on the GPU.
+            const auto place = run.provenance.find("dust_on");
+            run.cells["dust_on"] = place == run.provenance.end() ? "cpu" : place->second;
+        }
         for (const element input : json["provenance"]["inputs"].get_array())
             run.inputs.push_back({textOf(input["file"]), textOf(input["sha256"])});
         if (array searches; json["provenance"]["searches"].get(searches) == simdjson::SUCCESS)

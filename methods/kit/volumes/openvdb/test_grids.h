@@ -48,7 +48,7 @@ class TestGrid : public AnyTestGrid {
     void set(const glm::ivec3& cell, const Value& value);
     /// The cell keeps its value.
     void switchOff(const glm::ivec3& cell);
-    /// Every cell from `first` to `last` gets a value of its own.
+    /// Sets every cell from `first` to `last`. Each is stored, even if a tile of OpenVDB could stand for many.
     void fill(const glm::ivec3& first, const glm::ivec3& last, const Value& value);
     void changeBackground(const Value& value);
     [[nodiscard]] TestGrid deepCopy() const;
