@@ -15,6 +15,9 @@ RELEASE ?= trixie
 JOBS ?= $(shell nproc)
 LINT = $(if $(SINCE),--since $(SINCE)) $(if $(LINT_SECONDS),--seconds $(LINT_SECONDS)) $(FILES)
 PROGRAM := build/release/dustbench
+# The environment of programs built with sanitizers, as in the test preset `asan`.
+SANITIZED = ASAN_OPTIONS=detect_leaks=1 ASAN_SYMBOLIZER_PATH=/usr/bin/llvm-symbolizer-16 \
+	LSAN_OPTIONS=suppressions=$(CURDIR)/tests/sanitizers/leaks.supp UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 
 # The compiler cache stores paths relative to the tree, so that a copy of the tree finds its objects there.
 export CCACHE_BASEDIR ?= $(CURDIR)
@@ -41,6 +44,12 @@ endif
 build/%/build.ninja: CMakePresets.json | packages
 	@cmake --preset $*
 	@touch $@
+
+build/asan/build.ninja: | sanitizers
+
+.PHONY: sanitizers
+sanitizers:
+	@.ci/install sanitizers
 
 .PHONY: build
 build: build/release/build.ninja ## Build the program, build/release/dustbench
@@ -94,13 +103,12 @@ long: build/release/build.ninja ## Simulate a minute of every delivered particle
 fuzz: build/release/build.ninja build/asan/build.ninja ## Test with mutated files, command lines and results (MINUTES=10); findings in build/fuzz
 	@cmake --build --preset release --parallel $(JOBS) --target dustbench
 	@cmake --build --preset asan --parallel $(JOBS) --target fuzz_tests
-	@ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/sanitizers/leaks.supp \
-	    UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 python3 -B tests/fuzz/long_run.py --minutes $(MINUTES) \
+	@$(SANITIZED) python3 -B tests/fuzz/long_run.py --minutes $(MINUTES) \
 	    --readers build/asan/fuzz_tests --program $(PROGRAM) --findings build/fuzz
 
 .PHONY: fuzz-guided
 fuzz-guided: packages ## Test our text readers with Clang's libFuzzer (MINUTES=10 for all six); findings in build/fuzz/guided
-	@.ci/install fuzz
+	@.ci/install sanitizers
 	@tests/fuzz/coverage/coverage_guided.sh $$(($(MINUTES) * 10)) build/fuzz/guided
 
 .PHONY: fuzz-volumes
@@ -128,8 +136,8 @@ asan: build/asan/build.ninja ## Run the unit tests under AddressSanitizer and Un
 .PHONY: view-random
 view-random: build/asan/build.ninja ## Send random inputs to the window's panels under AddressSanitizer (INPUTS=10000 SEED=17)
 	@cmake --build --preset asan --parallel $(JOBS) --target bench_panels_tests
-	@DUSTBENCH_RANDOM_INPUTS=$(INPUTS) DUSTBENCH_RANDOM_SEED=$(SEED) ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 \
-		LSAN_OPTIONS=suppressions=tests/sanitizers/leaks.supp build/asan/bench_panels_tests --gtest_filter='*RandomInput*'
+	@$(SANITIZED) DUSTBENCH_RANDOM_INPUTS=$(INPUTS) DUSTBENCH_RANDOM_SEED=$(SEED) \
+		build/asan/bench_panels_tests --gtest_filter='*RandomInput*'
 
 .PHONY: golden
 golden: build/release/build.ninja ## Redraw the window's golden pictures; look at them before you commit them

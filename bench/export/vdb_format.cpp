@@ -35,7 +35,7 @@ void initialise() {
 /// OpenVDB's own file class does not notice a full disk, so we open the stream and check it.
 class File final : public openvdb::io::Archive {
  public:
-    void write(const std::filesystem::path& path, const openvdb::GridPtrVec& grids) const {
+    void writeFile(const std::filesystem::path& path, const openvdb::GridPtrVec& grids) const {
         std::ofstream stream(path, std::ios::binary | std::ios::trunc);
         if (!stream) files::failWriting(path, errno);
         Archive::write(stream, grids, /*seekable=*/true);
@@ -79,7 +79,7 @@ void describe(openvdb::GridBase& grid, const std::string& name, const std::strin
 void writeWholeVdb(const openvdb::GridPtrVec& grids, const std::filesystem::path& file) {
     WholeFile whole(file);
     try {
-        File().write(whole.temporaryPath(), grids);
+        File().writeFile(whole.temporaryPath(), grids);
     } catch (const openvdb::Exception& error) {
         throw cannotWrite(file, error.what());
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -41,18 +42,6 @@ bool covers(const Exception& exception, const World& world) {
            (exception.sizes.empty() || std::ranges::any_of(exception.sizes, isSize));
 }
 
-bool covers(const Exception& exception, const results::RunSpec& setting) {
-    const auto hasOneOf = [&](const auto& parameter) {
-        const auto& [name, values] = parameter;
-        const auto own = setting.parameters.find(name);
-        return own != setting.parameters.end() && std::ranges::any_of(values, [&](const std::string& value) {
-                   return results::canonicalParameters(findMethod(setting.method), {{name, value}}).at(name) ==
-                          own->second;
-               });
-    };
-    return isOneOf(setting.method, exception.methods) && std::ranges::all_of(exception.parameters, hasOneOf);
-}
-
 /// The exceptions of a suite, in order, and how many configurations each one changed or removed.
 class Exclusions {
  public:
@@ -60,10 +49,10 @@ class Exclusions {
         : exceptions_(exceptions), counts_(exceptions.size(), 0) {}
 
     /// The exceptions that cover the method and the parameters of a setting. The same in every world.
-    [[nodiscard]] std::vector<std::size_t> of(const results::RunSpec& setting) const {
+    [[nodiscard]] std::vector<std::size_t> of(const results::RunSpec& setting) {
         std::vector<std::size_t> covering;
         for (std::size_t i = 0; i < exceptions_.size(); ++i)
-            if (covers(exceptions_[i], setting)) covering.push_back(i);
+            if (isFor(setting, exceptions_[i])) covering.push_back(i);
         return covering;
     }
 
@@ -104,8 +93,27 @@ class Exclusions {
     }
 
  private:
+    bool isFor(const results::RunSpec& setting, const Exception& exception) {
+        const auto hasOneOf = [&](const auto& parameter) {
+            const auto& [name, values] = parameter;
+            const auto own = setting.parameters.find(name);
+            return own != setting.parameters.end() && std::ranges::any_of(values, [&](const std::string& value) {
+                       return canonical(setting.method, name, value) == own->second;
+                   });
+        };
+        return isOneOf(setting.method, exception.methods) && std::ranges::all_of(exception.parameters, hasOneOf);
+    }
+
+    /// Every setting of a suite asks for the same few, and each takes all of a method's declarations.
+    const std::string& canonical(const std::string& method, const std::string& name, const std::string& value) {
+        std::string& text = canonical_[{method, name, value}];
+        if (text.empty()) text = results::canonicalParameters(findMethod(method), {{name, value}}).at(name);
+        return text;
+    }
+
     const std::vector<Exception>& exceptions_;
     std::vector<std::size_t> counts_;
+    std::map<std::array<std::string, 3>, std::string> canonical_;  ///< by method, parameter and value as written
 };
 
 /// Throws InputError if no run of the suite has the load of its chart. Every run has the costs.

@@ -260,12 +260,9 @@ TEST(WeightedOit, EndsAtTheLargestHalfWhereSumsOverflow) {
     const auto fragments = bright.fragmentsAt(48, 36, Puff::volume);
     const Settings half{.accumulation = Accumulation::rgba16f};
     glm::dvec3 sum(0);
-    double divisor = 0;
     for (const Fragment& fragment : fragments) {
         const double alpha = -std::expm1(-fragment.opticalDepth);
-        const double share = alpha * plainWeight(half.weight, fragment.axisMetres, alpha, 0.1);
-        sum += share * fragment.colour;
-        divisor += share;
+        sum += alpha * plainWeight(half.weight, fragment.axisMetres, alpha, 0.1) * fragment.colour;
     }
     ASSERT_GT(sum.r, 20 * largestHalf);
     ASSERT_GT(sum.g, 1.2 * largestHalf);

@@ -215,7 +215,8 @@ void FluidSolver::scroll(glm::ivec3 by) {
                     if (farAxis >= 0) end[farAxis] += 1;
                     return glm::all(glm::greaterThanEqual(from, glm::ivec3(0))) && glm::all(glm::lessThan(from, end));
                 };
-                const float* old = cells_.cell(layout_.at(from.x, from.y, from.z));
+                const glm::ivec3 inside = glm::clamp(from, glm::ivec3(0), size);
+                const float* old = cells_.cell(layout_.at(inside.x, inside.y, inside.z));
                 for (int axis = 0; axis < 3; ++axis)
                     record[axis] = had(axis) ? old[axis] : settings_.windMetresPerSecond[axis];
                 for (std::size_t lane = density; lane < lanes; ++lane) record[lane] = had(-1) ? old[lane] : 0;

@@ -46,6 +46,7 @@ std::uint32_t indexOf(std::uint64_t keyed) {
 constexpr std::ptrdiff_t insertionLength = 24;
 
 void insertionSort(std::uint64_t* first, std::uint64_t* last) {
+    if (first == last) return;  // of no elements, `first` may be null, to which nothing may be added
     for (std::uint64_t* next = first + 1; next < last; ++next) {
         const std::uint64_t value = *next;
         std::uint64_t* hole = next;

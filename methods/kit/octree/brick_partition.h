@@ -65,6 +65,7 @@ class DUSTBENCH_API BrickPartition {
     /// Calls `visit(word)` for each particle of a brick, in store order; words are packed as by `key()`.
     template <typename Visit>
     void forEachParticle(const Brick& brick, const Visit& visit) const {
+        if (runs_ == 0) return;  // no particles, no memory yet
         const std::uint32_t* ends = ends_.data() + brick.bin;
         for (std::size_t run = 0; run < runs_; ++run, ends += runStride_) {
             const std::uint64_t* const end = sorted_.data() + ends[1];

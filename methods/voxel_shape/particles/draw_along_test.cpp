@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -117,7 +118,8 @@ particles::ParticleStore dustAbout(const glm::vec3& place, int count, const Velo
     std::uniform_real_distribution<float> unit(-3, 3);
     for (std::size_t i = 0; i < dust.size(); ++i) {
         dust.serial[i] = i;
-        const glm::vec3 p = place + glm::vec3(unit(random), unit(random), unit(random));
+        const std::array<float, 3> from{unit(random), unit(random), unit(random)};  // in this order with every compiler
+        const glm::vec3 p = place + glm::vec3(from[0], from[1], from[2]);
         const glm::vec3 v = velocityAt(p);
         dust.x[i] = p.x, dust.y[i] = p.y, dust.z[i] = p.z;
         dust.velocityX[i] = v.x, dust.velocityY[i] = v.y, dust.velocityZ[i] = v.z;
@@ -139,7 +141,7 @@ TEST(DustFlow, DrawsParticlesTowardsAUniformFlow) {
 
 TEST(DustFlow, FollowsAShearedFlowFromPlaceToPlace) {
     ShapeSystem shape = blockAt({0, 0, 0});
-    const auto dust = dustAbout({0, 0, 0}, 200'000, [](const glm::vec3& p) { return glm::vec3(3 * p.y, 0, 0); });
+    const auto dust = dustAbout({0, 0, 0}, 800'000, [](const glm::vec3& p) { return glm::vec3(3 * p.y, 0, 0); });
     DustFlow(ledger()).drawAlong(shape, dust, 1);
     const particles::ParticleStore& s = shape.particles().store;
     for (std::size_t i = 0; i < s.size(); ++i) ASSERT_NEAR(s.velocityX[i], 3 * s.y[i], 0.15f) << i;
