@@ -60,7 +60,7 @@ check: build/release/build.ninja ## Check a module (MODULE=weighted_oit; default
 	@.ci/gates check $(if $(SINCE),--since $(SINCE)) $(MODULE)
 
 .PHONY: all-gates
-all-gates: ## Run every gate of .ci/run, whatever has changed (about 50 minutes)
+all-gates: ## Run every gate of .ci/run, whatever has changed (about an hour)
 	@.ci/gates run --all
 
 .PHONY: package
