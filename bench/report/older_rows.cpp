@@ -52,17 +52,20 @@ bool isOlder(const results::StoredRun& run) {
            });
 }
 
-/// The runs of all suites of this build, with as many repetitions as in the rows.
+/// The runs of all suites of this build that have the key of a row.
 PlannedByKey plannedRuns(const results::StoredRuns& runs) {
-    int repetitions = 1;
-    for (const auto& [id, run] : runs)
-        repetitions = std::max(repetitions, static_cast<int>(files::numberOf(cellIn(run, "repetition")).value_or(1)));
     PlannedByKey planned;
+    int repetitions = 1;
+    for (const auto& [id, run] : runs) {
+        planned[keyOfRow(run)];
+        repetitions = std::max(repetitions, static_cast<int>(files::numberOf(cellIn(run, "repetition")).value_or(1)));
+    }
     const auto add = [&](const suite::Suite& suite) {
         for (const suite::PlannedRun& cell : suite::withBaselines(suite).cells)
             for (int repetition = 1; repetition <= repetitions; ++repetition) {
                 results::RunSpec spec = suite::inRepetition(cell.spec, repetition);
-                planned[keyOfSpec(spec)].try_emplace(results::runId(spec), spec);
+                if (const auto found = planned.find(keyOfSpec(spec)); found != planned.end())
+                    found->second.try_emplace(results::runId(spec), spec);
             }
     };
     for (const suite::SuiteFile& file : suite::listSuites()) {
@@ -107,10 +110,10 @@ void adoptOlderRows(results::StoredRuns& runs, std::vector<std::string>& problem
     std::set<std::string> added, taken;
     std::vector<std::pair<std::string, std::string>> renamed;
     for (const auto& [id, run] : runs) {
-        const auto found = planned.find(keyOfRow(run));
-        if (found == planned.end() || found->second.contains(id)) continue;
+        const std::map<std::string, results::RunSpec>& candidates = planned.at(keyOfRow(run));
+        if (candidates.contains(id)) continue;
         std::set<std::string> fitting, missing;
-        for (const auto& [plannedId, spec] : found->second)
+        for (const auto& [plannedId, spec] : candidates)
             if (const auto lacks = missingIn(run, spec)) {
                 fitting.insert(plannedId);
                 missing = *lacks;

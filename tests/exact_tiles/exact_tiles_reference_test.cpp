@@ -53,7 +53,8 @@ std::vector<Case> cases() {
 }
 
 /// The largest difference of a channel.
-double difference(const Case& one, bool oneColour, std::vector<std::pair<std::string, std::string>> values = {}) {
+double difference(const Case& one, bool oneColour,
+                  const std::vector<std::pair<std::string, std::string>>& values = {}) {
     Dust dust(one);
     dust.dust.keepOneColour(oneColour);
     if (!oneColour)

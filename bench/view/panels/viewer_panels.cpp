@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include "bench/view/panels/cost_panel.h"
@@ -252,7 +253,7 @@ void ViewerPanels::showHelp() {
 
 void ViewerPanels::showTextSize() {
     std::vector<std::string> words;
-    for (const double scale : textScales) words.push_back(percentText(scale));
+    std::ranges::transform(textScales, std::back_inserter(words), percentText);
     if (const auto chosen = showList("Text size", percentText(wantedScale_), words, widgets_))
         wantedScale_ = textScales.at(static_cast<std::size_t>(std::ranges::find(words, *chosen) - words.begin()));
 }

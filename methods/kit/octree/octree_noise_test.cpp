@@ -45,9 +45,10 @@ class SparseDust : public TestMoment {
         std::uniform_real_distribution<float> uniform(0, 0.3f);
         for (std::size_t i = 0; i < dust.size(); ++i) {
             dust.serial[i] = i;
-            dust.x[i] = static_cast<float>(i % 6) - 3 + 0.1f + uniform(random);
-            dust.y[i] = static_cast<float>(i / 6 % 6) + 0.1f + uniform(random);
-            dust.z[i] = static_cast<float>(i / 36) - 3 + 0.1f + uniform(random);
+            const std::size_t column = i % 6, row = i / 6 % 6, layer = i / 36;
+            dust.x[i] = static_cast<float>(column) - 3 + 0.1f + uniform(random);
+            dust.y[i] = static_cast<float>(row) + 0.1f + uniform(random);
+            dust.z[i] = static_cast<float>(layer) - 3 + 0.1f + uniform(random);
             dust.radius[i] = 0.6f;
             dust.opacity[i] = 0.02f;
             dust.lifetime[i] = 4;

@@ -33,14 +33,6 @@ class Groups {
     std::vector<std::size_t> leader_;
 };
 
-struct Box {
-    glm::vec3 minimum{INFINITY}, maximum{-INFINITY};
-    [[nodiscard]] bool meets(const Box& other) const {
-        return glm::all(glm::lessThanEqual(minimum, other.maximum)) &&
-               glm::all(glm::lessThanEqual(other.minimum, maximum));
-    }
-};
-
 constexpr int maximumCells = 128;
 
 MarkedVoxels surfaceOf(const scene::Mesh& mesh, float cellMetres) {
@@ -84,13 +76,10 @@ std::vector<scene::Mesh> partsOf(const scene::Mesh& mesh) {
     // Repeat until no two boxes overlap: a box that has grown may overlap more.
     for (bool joined = true; joined;) {
         joined = false;
-        std::map<std::size_t, Box> boxes;
+        std::map<std::size_t, AxisBox> boxes;
         for (std::size_t t = 0; t < triangles; ++t) {
-            Box& box = boxes[groups.of(t)];
-            for (std::size_t k = 0; k < 3; ++k) {
-                box.minimum = glm::min(box.minimum, mesh.positions[mesh.indices[3 * t + k]]);
-                box.maximum = glm::max(box.maximum, mesh.positions[mesh.indices[3 * t + k]]);
-            }
+            AxisBox& box = boxes[groups.of(t)];
+            for (std::size_t k = 0; k < 3; ++k) box.take(mesh.positions[mesh.indices[3 * t + k]]);
         }
         for (auto a = boxes.begin(); a != boxes.end(); ++a)
             for (auto b = std::next(a); b != boxes.end(); ++b)
