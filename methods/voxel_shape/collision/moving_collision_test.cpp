@@ -103,6 +103,22 @@ TEST(MovingCollision, NoParticleGetsIntoABallThatMovesAndTheShapeIsWholeAgainBeh
     EXPECT_GT(shape.within(), 5900u);
 }
 
+TEST(MovingCollision, AShapeIsWholeAgainAfterABallThatJumpsAway) {
+    const MovingBall ball(scene::SolidMotion::moves);
+    StillShape shape;
+    ShapeCollision collision(ball.scene, shape.lattice.edgeMetres, {});
+    shape.step(collision, MovingBall::moving(1 - frameSeconds));
+    scene::SceneState state = MovingBall::moving(1);
+    shape.step(collision, state);
+    ASSERT_GT(collision.switchedOff(), 0u);
+    state.timeSeconds += frameSeconds;
+    state.solids[0].pose.toWorld[3].x += 100;
+    shape.step(collision, state);
+    EXPECT_EQ(collision.switchedOff(), 0u);
+    VoxelGrid& grid = shape.system.grid();
+    for (const std::uint32_t index : grid.active()) ASSERT_TRUE(grid.voxels()[index].isOn());
+}
+
 TEST(MovingCollision, NoParticleGetsIntoABallThatDeforms) {
     const MovingBall ball(scene::SolidMotion::deforms);
     StillShape shape;
