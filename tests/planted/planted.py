@@ -24,6 +24,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tomllib
 
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parents[1]
@@ -115,8 +116,12 @@ def plant(file, *options, tree=TREE):
 
 
 def check_sample(claim):
-    """A patch cannot change a verdict that the claim no longer has."""
-    identity, paper, _, expected = CLAIM.fullmatch(claim).groups()
+    """A patch cannot change a verdict that the claim no longer has, or that another suite gives."""
+    identity, paper, suite, expected = CLAIM.fullmatch(claim).groups()
+    entries = tomllib.loads((SOURCE / "data" / "papers" / paper / "claims.toml").read_text())["claim"]
+    judged = [entry.get("suite", suite) for entry in entries if entry["id"] == identity]  # without one, the paper's own suite
+    if judged != [suite]:
+        raise Unexpected(f"{identity} of {paper}: the patch runs the suite {suite}, the claim is judged from {' '.join(judged) or 'none'}")
     with open(SOURCE / "reports" / "sample" / paper / "claims.csv", newline="", encoding="utf-8") as file:
         found = [row["verdict"] for row in csv.DictReader(file) if row["id"] == identity]
     if found != [expected]:
