@@ -19,7 +19,6 @@
 #include "methods/kit/gpu/program.h"
 #include "methods/kit/gpu/queue_marks.h"
 #include "methods/kit/gpu/texture.h"
-#include "methods/kit/gpu/vertex_array.h"
 
 namespace dustbench::selfcheck {
 

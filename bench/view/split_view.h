@@ -7,10 +7,10 @@
 #include <span>
 
 #include "methods/contract/choices.h"
+#include "methods/kit/gpu/draw_call.h"
 #include "methods/kit/gpu/framebuffer.h"
 #include "methods/kit/gpu/program.h"
 #include "methods/kit/gpu/texture.h"
-#include "methods/kit/gpu/vertex_array.h"
 #include "methods/kit/pictures/image.h"
 
 namespace dustbench::view {

@@ -14,10 +14,10 @@
 #include "methods/kit/draw/billboards.h"
 #include "methods/kit/draw/depth_sort.h"
 #include "methods/kit/draw/gpu_depth_order.h"
+#include "methods/kit/gpu/draw_call.h"
 #include "methods/kit/gpu/framebuffer.h"
 #include "methods/kit/gpu/layer.h"
 #include "methods/kit/gpu/program.h"
-#include "methods/kit/gpu/vertex_array.h"
 
 namespace dustbench::offscreen_particles {
 

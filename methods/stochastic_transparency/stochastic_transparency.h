@@ -11,9 +11,8 @@
 #include <optional>
 
 #include "methods/contract/method.h"
-#include "methods/kit/draw/average_colour.h"
+#include "methods/kit/draw/colour_sums.h"
 #include "methods/kit/draw/puff_quads.h"
-#include "methods/kit/draw/sum_targets.h"
 #include "methods/kit/gpu/buffer.h"
 
 namespace dustbench::stochastic_transparency {

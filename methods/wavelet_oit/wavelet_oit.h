@@ -14,10 +14,9 @@
 #include <optional>
 
 #include "methods/contract/method.h"
-#include "methods/kit/draw/average_colour.h"
+#include "methods/kit/draw/colour_sums.h"
 #include "methods/kit/draw/depth_mapping.h"
 #include "methods/kit/draw/puff_quads.h"
-#include "methods/kit/draw/sum_targets.h"
 #include "methods/kit/gpu/buffer.h"
 #include "methods/wavelet_oit/plain_wavelets.h"
 

@@ -17,11 +17,11 @@
 #include <glm/glm.hpp>
 
 #include "methods/contract/method.h"
+#include "methods/kit/draw/colour_sums.h"
 #include "methods/kit/draw/puff_quads.h"
-#include "methods/kit/draw/sum_targets.h"
 #include "methods/kit/draw/tile_puffs.h"
+#include "methods/kit/gpu/draw_call.h"
 #include "methods/kit/gpu/program.h"
-#include "methods/kit/gpu/vertex_array.h"
 
 namespace dustbench::weighted_oit {
 

@@ -13,9 +13,9 @@
 #include "methods/kit/draw/ground_lattice.h"
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/device.h"
+#include "methods/kit/gpu/draw_call.h"
 #include "methods/kit/gpu/program.h"
 #include "methods/kit/gpu/texture.h"
-#include "methods/kit/gpu/vertex_array.h"
 
 namespace dustbench::draw {
 

@@ -23,7 +23,6 @@
 #include "methods/kit/gpu/layer.h"
 #include "methods/kit/gpu/program.h"
 #include "methods/kit/gpu/shader_file.h"
-#include "methods/kit/gpu/vertex_array.h"
 
 namespace dustbench::draw {
 

@@ -18,7 +18,6 @@
 #include "methods/kit/gpu/layer.h"
 #include "methods/kit/gpu/program.h"
 #include "methods/kit/gpu/texture.h"
-#include "methods/kit/gpu/vertex_array.h"
 
 namespace dustbench::draw {
 

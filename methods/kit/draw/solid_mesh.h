@@ -9,7 +9,6 @@
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/device.h"
 #include "methods/kit/gpu/draw_call.h"
-#include "methods/kit/gpu/vertex_array.h"
 
 namespace dustbench::draw {
 

@@ -8,9 +8,8 @@
 #include <span>
 #include <string_view>
 
-#include "methods/kit/gpu/booking.h"
 #include "methods/kit/gpu/device.h"
-#include "methods/kit/gpu/name.h"
+#include "methods/kit/gpu/ownership.h"
 
 namespace dustbench::gpu {
 

@@ -1,12 +1,36 @@
-// Fixed-function state and draw calls. Every draw sets all of its state, so that no state leaks into the next pass.
+// A draw call: its vertices, its fixed-function state, and the call. Every draw sets all of its state, so that no state
+// leaks into the next pass.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
+#include "methods/kit/gpu/buffer.h"
+#include "methods/kit/gpu/device.h"
+#include "methods/kit/gpu/ownership.h"
 #include "methods/kit/gpu/program.h"
-#include "methods/kit/gpu/vertex_array.h"
 
 namespace dustbench::gpu {
+
+enum class Advance { perVertex, perInstance };
+
+/// Assigns buffers to vertex attributes. Owns the OpenGL vertex array, not the buffers, which must outlive it.
+class DUSTBENCH_API VertexArray {
+ public:
+    VertexArray() = default;
+    explicit VertexArray(Device& device);
+
+    /// Attribute `location` reads `components` floats at `offset` of each element of `stride` bytes.
+    void attribute(int location, int components, const Buffer& buffer, std::size_t stride, std::size_t offset,
+                   Advance advance = Advance::perVertex);
+    /// Indices are 32-bit.
+    void indices(const Buffer& buffer);
+
+    void bind() const;
+
+ private:
+    Name name_;
+};
 
 enum class Blend {
     none,

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "methods/kit/gpu/device.h"
-#include "methods/kit/gpu/name.h"
+#include "methods/kit/gpu/ownership.h"
 #include "methods/kit/gpu/texture.h"
 
 namespace dustbench::gpu {

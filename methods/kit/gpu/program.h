@@ -17,7 +17,7 @@
 
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/device.h"
-#include "methods/kit/gpu/name.h"
+#include "methods/kit/gpu/ownership.h"
 #include "methods/kit/gpu/shader_file.h"
 
 namespace dustbench::gpu {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "methods/kit/gpu/device.h"
-#include "methods/kit/gpu/name.h"
+#include "methods/kit/gpu/ownership.h"
 
 namespace dustbench::gpu {
 

@@ -4,17 +4,39 @@
 // Frame: rows from the bottom, as in OpenGL. Edges clamp by default.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "methods/kit/gpu/booking.h"
 #include "methods/kit/gpu/device.h"
-#include "methods/kit/gpu/format.h"
-#include "methods/kit/gpu/name.h"
+#include "methods/kit/gpu/ownership.h"
 
 namespace dustbench::gpu {
+
+/// Named after OpenGL's.
+enum class Format { rgba8, srgba8, rgba16F, rgba32F, r8, r16F, r32F, depth32F };
+
+/// Bytes of one texel.
+[[nodiscard]] constexpr std::size_t bytesPerTexel(Format format) {
+    switch (format) {
+        case Format::r8:
+            return 1;
+        case Format::r16F:
+            return 2;
+        case Format::rgba8:
+        case Format::srgba8:
+        case Format::r32F:
+        case Format::depth32F:
+            return 4;
+        case Format::rgba16F:
+            return 8;
+        case Format::rgba32F:
+            return 16;
+    }
+    return 0;
+}
 
 enum class Filter { nearest, linear, mipmapped };
 enum class Wrap { clamp, repeat };

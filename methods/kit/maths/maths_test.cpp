@@ -13,7 +13,6 @@
 #include "methods/kit/maths/fast_functions.h"
 #include "methods/kit/maths/hash.h"
 #include "methods/kit/maths/philox.h"
-#include "methods/kit/maths/sine.h"
 
 namespace dustbench::maths {
 namespace {

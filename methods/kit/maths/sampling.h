@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "methods/kit/maths/sine.h"
+#include "methods/kit/maths/fast_functions.h"
 
 namespace dustbench::maths {
 

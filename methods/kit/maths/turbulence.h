@@ -14,8 +14,8 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "methods/kit/maths/fast_functions.h"
 #include "methods/kit/maths/philox.h"
-#include "methods/kit/maths/sine.h"
 
 namespace dustbench::maths {
 

@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "methods/contract/view.h"
+#include "methods/kit/gpu/draw_call.h"
 #include "methods/kit/gpu/layer.h"
 #include "methods/kit/gpu/program.h"
 #include "methods/kit/gpu/texture.h"
-#include "methods/kit/gpu/vertex_array.h"
 #include "methods/kit/octree/lattice.h"
 #include "methods/kit/octree/octree.h"
 

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "methods/contract/choices.h"
-#include "methods/kit/maths/logarithm.h"
+#include "methods/kit/maths/fast_functions.h"
 
 namespace dustbench::particles {
 

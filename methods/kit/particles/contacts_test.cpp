@@ -5,7 +5,7 @@
 #include <fstream>
 #include <set>
 
-#include "methods/kit/maths/logarithm.h"
+#include "methods/kit/maths/fast_functions.h"
 #include "methods/kit/particles/part.h"
 #include "methods/kit/particles/test_world.h"
 #include "methods/kit/testing/test_folder.h"

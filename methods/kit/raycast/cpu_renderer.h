@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "methods/kit/gpu/buffer.h"
+#include "methods/kit/gpu/draw_call.h"
 #include "methods/kit/gpu/layer.h"
 #include "methods/kit/gpu/program.h"
-#include "methods/kit/gpu/vertex_array.h"
 #include "methods/kit/raycast/cpu_march.h"
 #include "methods/kit/raycast/grid_raycast.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "methods/kit/gpu/buffer.h"
-#include "methods/kit/gpu/vertex_array.h"
+#include "methods/kit/gpu/draw_call.h"
 #include "methods/kit/raycast/grid_on_gpu.h"
 #include "methods/kit/raycast/grid_raycast.h"
 

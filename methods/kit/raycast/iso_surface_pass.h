@@ -6,9 +6,9 @@
 #pragma once
 
 #include "methods/kit/gpu/buffer.h"
+#include "methods/kit/gpu/draw_call.h"
 #include "methods/kit/gpu/framebuffer.h"
 #include "methods/kit/gpu/program.h"
-#include "methods/kit/gpu/vertex_array.h"
 #include "methods/kit/raycast/grid_raycast.h"
 
 namespace dustbench::raycast {

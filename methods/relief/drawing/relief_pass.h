@@ -17,11 +17,11 @@
 #include "methods/kit/draw/solid_mesh.h"
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/device.h"
+#include "methods/kit/gpu/draw_call.h"
 #include "methods/kit/gpu/framebuffer.h"
 #include "methods/kit/gpu/layer.h"
 #include "methods/kit/gpu/program.h"
 #include "methods/kit/gpu/texture.h"
-#include "methods/kit/gpu/vertex_array.h"
 #include "methods/relief/surface/depth_map.h"
 #include "methods/relief/surface/worn_surface.h"
 

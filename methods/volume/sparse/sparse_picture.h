@@ -10,8 +10,8 @@
 
 #include "methods/contract/scene.h"
 #include "methods/kit/gpu/buffer.h"
+#include "methods/kit/gpu/draw_call.h"
 #include "methods/kit/gpu/layer.h"
-#include "methods/kit/gpu/vertex_array.h"
 #include "methods/kit/raycast/cpu_renderer.h"
 #include "methods/kit/raycast/grid_on_gpu.h"
 #include "methods/kit/raycast/shown_grid.h"

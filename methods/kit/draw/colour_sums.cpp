@@ -1,6 +1,8 @@
-#include "methods/kit/draw/sum_targets.h"
+#include "methods/kit/draw/colour_sums.h"
 
 #include <utility>
+
+#include "draw_shaders.h"
 
 namespace dustbench::draw {
 
@@ -30,6 +32,17 @@ std::size_t SumTargets::gpuBytes() const {
     std::size_t bytes = 0;
     for (const gpu::Texture& texture : textures_) bytes += texture.bytes();
     return bytes;
+}
+
+AverageColour::AverageColour(gpu::Device& device)
+    : program_(device, "average colour", {draw_shaders::composite_vert, draw_shaders::average_colour_frag}),
+      noVertices_(device) {}
+
+void AverageColour::draw(const gpu::Texture& colours, const gpu::Texture& depths, const gpu::Layer& layer) {
+    layer.bindColourOnly();
+    colours.bind(0);
+    depths.bind(1);
+    gpu::draw(program_, noVertices_, {}, gpu::Primitives::triangles, 3);
 }
 
 }  // namespace dustbench::draw
