@@ -217,7 +217,14 @@ std::vector<Flake> widened(std::vector<Flake> particles, double deviation) {
     return particles;
 }
 
-void measureFire(Found& found, int cells, std::uint64_t seed) {
+/// A fire's pictures, for comparison with those of other fires.
+struct Shown {
+    double sourceX;
+    Picture volume;
+    std::map<std::string, Picture> references;
+};
+
+Shown measureFire(Found& found, int cells, std::uint64_t seed) {
     constexpr double seconds = 1.2;
     constexpr int particles = 5000;  // as in the paper's Figure 18 c
     constexpr int width = 64;
@@ -243,6 +250,41 @@ void measureFire(Found& found, int cells, std::uint64_t seed) {
         add("control_correlation_lead", correlationOf(wrong, reference->freshness) - correlation);
     }
     found["references_apart"].push_back(std::log(distanceOf(byVolume.shown, byPaths.shown)));
+    return {sourceOf(seed).centreMetres.x, volume, {{"_by_paths", byPaths.shown}, {"_by_volume", byVolume.shown}}};
+}
+
+/// The picture moved to the right by whole pixels; nothing comes in from the side.
+Picture moved(const Picture& picture, double metres) {
+    const auto columns = static_cast<int>(std::lround(metres / widthMetres * picture.width));
+    Picture result{picture.width, picture.height, std::vector<glm::dvec3>(picture.colours.size(), glm::dvec3(0)),
+                   std::vector<double>(picture.alphas.size(), 0)};
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = std::max(0, columns); x < std::min(picture.width, picture.width + columns); ++x) {
+            const auto to = static_cast<std::size_t>(y * picture.width + x);
+            const auto from = static_cast<std::size_t>(y * picture.width + x - columns);
+            result.colours[to] = picture.colours[from];
+            result.alphas[to] = picture.alphas[from];
+        }
+    return result;
+}
+
+/// Compares the volume with video textures: the references' pictures of the next three fires, at the place of this one.
+/// The nearest counts. The control's video is of this very fire: its other reference.
+void measureVideos(Found& found, const std::vector<Shown>& fires) {
+    constexpr std::size_t videos = 3;
+    for (std::size_t i = 0; i < fires.size(); ++i)
+        for (const auto& [name, reference] : fires[i].references) {
+            const double volume = distanceOf(fires[i].volume, reference);
+            double nearest = std::numeric_limits<double>::infinity();
+            for (std::size_t v = 1; v <= std::min(videos, fires.size() - 1); ++v) {
+                const Shown& other = fires[(i + v) % fires.size()];
+                const Picture video = moved(other.references.at(name), fires[i].sourceX - other.sourceX);
+                nearest = std::min(nearest, distanceOf(video, reference));
+            }
+            found["error_ratio_video" + name].push_back(std::log(volume / nearest));
+            const Picture& own = fires[i].references.at(name == "_by_paths" ? "_by_volume" : "_by_paths");
+            found["control_error_ratio_video" + name].push_back(std::log(volume / distanceOf(own, reference)));
+        }
 }
 
 struct Pieces {
@@ -269,11 +311,13 @@ void measurePieces(Found& found, int cells, std::uint64_t seed) {
 std::vector<Finding> measureAll(ExperimentContext& context) {
     const int cells = context.quick() ? 20 : 32, seeds = context.quick() ? 5 : 12;
     Found found;
+    std::vector<Shown> fires;
     for (int fire = 0; fire < seeds; ++fire) {
         const std::uint64_t seed = 1000 * context.seed() + static_cast<std::uint64_t>(fire);
-        measureFire(found, cells, seed);
+        fires.push_back(measureFire(found, cells, seed));
         measurePieces(found, cells, seed);
     }
+    measureVideos(found, fires);
     std::vector<Finding> all;
     for (const auto& [name, values] : found) {
         Finding finding = findings::meanOf(name, values);

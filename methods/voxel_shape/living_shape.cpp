@@ -66,6 +66,7 @@ void LivingShape::prepare(MemoryLedger& ledger, const scene::Scene& scene, gpu::
     if (shape_.stress.fullMetres > 0) stress_.emplace(ledger, *system_, shape_.stress);
     if (shape_.dustDrawsPerSecond > 0) flow_.emplace(ledger);
     if (!shape_.flow.files.empty()) field_.emplace(shape_.flow.files, shape_.flow.field);
+    if (shape_.flow.massLoading > 0) wake_.emplace(ledger, shape_.flow.massLoading, shape_.flow.wakeSeconds);
     const Collidable& with = shape_.collidesWith;
     if ((with.solids && !scene.solids.empty()) || (with.vehicle && scene.vehicle)) {
         double scale = 0;
@@ -113,12 +114,13 @@ void LivingShape::step(const Frame& frame) {
         const auto timing = frame.clock.measureDetail("flow");
         const double since = shape_.flow.fromSeconds ? *shape_.flow.fromSeconds - field_->firstSeconds() : 0;
         const double time = frame.state.timeSeconds - since;
-        const float share = 1 - std::exp(-shape_.flow.drawsPerSecond * seconds);
-        particles::ParticleStore& store = system_->particles().store;
-        if (shape_.flow.followsShape)
-            drawAlong(store, *field_, pose, time, share);
-        else
-            drawAlong(store, *field_, time, share);
+        const Flow flow = shape_.flow.followsShape ? flowOf(*field_, pose, time) : flowOf(*field_, time);
+        if (wake_) {
+            wake_->exchange(*system_, flow, shape_.flow.drawsPerSecond, seconds);
+            wake_->carry(*system_, flow, seconds);
+        } else {
+            drawAlong(system_->particles().store, flow, 1 - std::exp(-shape_.flow.drawsPerSecond * seconds));
+        }
     }
 }
 

@@ -66,6 +66,7 @@ class LivingShape {
     std::optional<ShapeStress> stress_;
     std::optional<DustFlow> flow_;
     std::optional<volumes::VectorSeries> field_;
+    std::optional<FlowWake> wake_;
     std::unique_ptr<ShapeCollision> collision_;
 };
 

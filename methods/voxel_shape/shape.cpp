@@ -218,6 +218,39 @@ void readFlow(TomlReader& file, const std::filesystem::path& folder, Shape& shap
     if (table.has("follow")) shape.flow.followsShape = table.choice("follow", {"world", "shape"}) == "shape";
     shape.flow.drawsPerSecond = number(table, "draws_per_second", 0, 1000, shape.flow.drawsPerSecond);
     if (table.has("from_seconds")) shape.flow.fromSeconds = table.number("from_seconds", -1e5, 1e5);
+    shape.flow.massLoading = number(table, "mass_loading", 0, 1000, shape.flow.massLoading);
+    shape.flow.wakeSeconds = number(table, "wake_seconds", 1e-3, 1e6, shape.flow.wakeSeconds);
+    table.finish();
+}
+
+/// The forces that keep particles in single rows of voxels: helices around the rows' axes.
+void readRowForce(TomlReader& file, Shape& shape) {
+    if (!file.has("row_force")) return;
+    TomlReader table = file.table("row_force");
+    const float rate = number(table, "radians_per_second", 0, 60, 3);
+    shape.rowForce = {Force::helix, {rate, 0, 0}, number(table, "metres_per_radian", -10, 10, 0)};
+    table.finish();
+}
+
+VoxelBox readBox(TomlReader& table, std::string_view key) {
+    TomlReader box = table.table(key);
+    const VoxelBox read{glm::vec3(box.vector3("min")), glm::vec3(box.vector3("max"))};
+    box.finish();
+    return read;
+}
+
+void readLoad(TomlReader& file, Shape& shape) {
+    if (!file.has("load")) return;
+    TomlReader table = file.table("load");
+    ElasticLoad& load = shape.load;
+    load.where = table.where();
+    load.held = readBox(table, "held");
+    load.loaded = readBox(table, "at");
+    load.newtons = glm::vec3(table.vector3("newtons"));
+    if (!load.isOn()) throw InputError(table.where("newtons") + "key 'newtons': got [0, 0, 0], expected a force");
+    load.poisson = table.number("poisson", 0, 0.49, load.poisson);
+    load.fullPascals = number(table, "full_pascals", 0, 1e12, load.fullPascals);
+    load.colour = colour(table, "colour", load.colour);
     table.finish();
 }
 
@@ -347,6 +380,8 @@ Shape readShape(const std::filesystem::path& path) {
     readMotion(file, shape);
     readCollision(file, shape);
     readLook(file, shape);
+    readRowForce(file, shape);
+    readLoad(file, shape);
     readStress(file, shape);
     readFlow(file, path.parent_path(), shape);
     readTrack(file, shape);

@@ -13,6 +13,7 @@
 #include "methods/kit/files/toml_reader.h"
 #include "methods/voxel_shape/collision/shape_collision.h"
 #include "methods/voxel_shape/particles/particle_kernel.h"
+#include "methods/voxel_shape/voxels/elastic_load.h"
 #include "methods/voxel_shape/voxels/voxel_change.h"
 
 namespace dustbench::voxel_shape {
@@ -74,6 +75,8 @@ struct FlowField {
     bool followsShape = false;          ///< in the shape's frame, with which it moves; otherwise in the world's
     float drawsPerSecond = 4;           ///< rate at which particles take on its velocity
     std::optional<double> fromSeconds;  ///< simulated time at which the series begins; empty: the time in its files
+    float massLoading = 0;              ///< mass of a full voxel's particles by that of its air; 0: no wake
+    float wakeSeconds = 2;              ///< time constant with which the wake fades
 };
 
 /// Colours voxels by the displacement of their particles from their places of birth.
@@ -113,12 +116,14 @@ struct Shape {
     std::uint32_t particles = 40'000;
     VoxelChange voxels;  ///< attributes of all voxels; complete except for the colour
     std::vector<VoxelEdit> edits;
+    std::optional<VoxelChange::ForceEffect> rowForce;  ///< of voxels in single rows that have no force; |vector|: rate
     Motion motion;
     Collidable collidesWith;
     Impact impact;
     float windFactor = 1;  ///< share of the scene's wind
     Look look;
     StressLook stress;
+    ElasticLoad load;
     FlowField flow;
     Track track;
     std::vector<Shape> others;      ///< further shapes of the scene; they contain no others themselves

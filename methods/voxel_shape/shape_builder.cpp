@@ -87,6 +87,16 @@ void setVoxels(VoxelGrid& grid, const Shape& shape) {
         if (shape.voxels.maximumDensity) grid.voxels()[i].maximumDensity = *shape.voxels.maximumDensity;
 }
 
+/// Gives the voxels of single rows a force around the row's axis, unless they have one.
+void setRowForces(VoxelGrid& grid, const VoxelChange::ForceEffect& force) {
+    const std::vector<glm::vec3> rows = rowsOf(grid);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        Voxel& voxel = grid.voxels()[grid.active()[k]];
+        if (rows[k] != glm::vec3(0) && voxel.force == glm::vec3(0))
+            voxel.setForce(force.kind, glm::length(force.vector) * rows[k], force.number);
+    }
+}
+
 }  // namespace
 
 scene::Mesh meshOf(const Shape& shape, const scene::Scene& scene) {
@@ -117,6 +127,8 @@ ShapeSystem buildShape(MemoryLedger& ledger, const Shape& shape, const scene::Sc
         if (shape.source == Source::voxels || edit.change.active.value_or(true)) edit.applyTo(grid);
     if (grid.active().empty())
         throw InputError("shape '" + shape.name + "': got no active voxel, expected at least one to hold particles");
+    if (shape.rowForce) setRowForces(grid, *shape.rowForce);
+    if (shape.load.isOn()) showStress(shape.load, grid);
     if (!shape.savedVoxels.empty()) writeVoxels(grid, shape.savedVoxels);
     return system;
 }

@@ -1,6 +1,7 @@
 // Edits of a shape's file: spheres, boxes and meshes in which voxels change colour, activity or force, and are saved.
 #include <gtest/gtest.h>
 
+#include "methods/kit/files/data_folder.h"
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/testing/test_folder.h"
 #include "methods/kit/testing/test_input_error.h"
@@ -96,6 +97,27 @@ TEST(ShapeEdit, SaysThatAnOpenMeshHasNoInside) {
     const auto file = folder.write("s.toml", editedBlock + "[[edit]]\nmesh = \"open.obj\"\ncolour = [1, 0, 0]\n");
     const std::string message = inputError([&] { (void)readShape(file); });
     EXPECT_NE(message.find("3 open edges"), std::string::npos) << message;
+}
+
+/// A helix around the row where there is a row, unless the voxel has a force.
+TEST(RowForce, KeepsParticlesInTheSpikesOfTheirVoxels) {
+    MemoryLedger ledger;
+    Shape spikes = readShape(files::findData("shape", "shapes", "spikes_drawn", ".toml"));
+    spikes.track.followsVehicle = false;
+    const ShapeSystem system = buildShape(ledger, spikes, {}, TestMoment::device(), 1);
+    for (const std::uint32_t i : system.grid().active()) {
+        const Voxel& voxel = system.grid().voxels()[i];
+        EXPECT_EQ(voxel.forceKind(), Force::helix);
+        EXPECT_LT(glm::distance(voxel.force, glm::vec3(0, 3, 0)), 1e-5f);
+        EXPECT_EQ(voxel.forceNumber, 0.005f);
+    }
+    const TestFolder folder;
+    const auto own = folder.write("own.toml",
+                                  "description = \"\"\nparticles = 60\n[grid]\ncells = [1, 9, 1]\nedge_metres = 0.1\n"
+                                  "[voxels]\nforce = { kind = \"linear\", acceleration = [1, 0, 0] }\n"
+                                  "[row_force]\n[place]\nfollow = \"world\"\n");
+    const ShapeSystem kept = built(ledger, own);
+    for (const std::uint32_t i : kept.grid().active()) EXPECT_EQ(kept.grid().voxels()[i].force, glm::vec3(1, 0, 0));
 }
 
 }  // namespace

@@ -117,6 +117,9 @@ void declareDust(MethodInfo& info) {
                 "sort, or in tree order")
         .boolean("crossfade", false, "fade voxels in and out instead of letting them pop")
         .real("crossfade_time", 0.1, 0.001, 10, "s", "time constant of that fading")
+        .real("keep_time", 0, 0, 10, "s",
+              "time for which a tree is kept; voxels are interpolated between the last two trees, so they are as much "
+              "late. 0: a tree for every frame")
         .real("world_edge", 128, 1, 1e5, "m",
               "edge of the octree's world, a cube that follows the vehicle; doubled, with one more level, until it "
               "holds the dust or has 12 levels");
@@ -166,6 +169,7 @@ DustSettings dustSettings(const ParameterValues& values) {
     settings.noise = draw::noiseSettings(values);
     settings.crossFade = values.boolean("crossfade");
     settings.crossFadeSeconds = values.real("crossfade_time");
+    settings.keepSeconds = values.real("keep_time");
     settings.worldEdgeMetres = values.real("world_edge");
     return settings;
 }
@@ -184,6 +188,7 @@ OctreeDust::OctreeDust(const DustSettings& settings, const MakeBuilder& makeBuil
       extinctions_(ledger_.account("voxel list")),
       colours_(ledger_.account("voxel list")) {
     if (settings.opacity == draw::OpacityFrom::age) byAge_.emplace(ledger_, settings.youngOpacity);
+    if (settings.keepSeconds > 0) kept_.emplace(ledger_, settings.keepSeconds);
     if (settings.crossFade) fade_.emplace(ledger_, settings.crossFadeSeconds);
 }
 
@@ -217,13 +222,26 @@ void OctreeDust::build(const Frame& frame) {
         const auto detail = frame.clock.measureDetail("list");
         cloud_.take(tree_, dust, VoxelRule(dust, settings_.tree.policy), lattice, settings_.noise);
     }
+}
+
+void OctreeDust::chooseVoxels(const Frame& frame) {
+    shown_ = &cloud_;
+    if (kept_) {
+        const bool due = kept_->advance(frame.stepSeconds);
+        if (due) build(frame);
+        const auto detail = frame.clock.measureDetail("interpolate");
+        if (due) kept_->take(cloud_);
+        shown_ = &kept_->between();
+    } else {
+        build(frame);
+    }
     if (!fade_) return;
     const auto detail = frame.clock.measureDetail("crossfade");
-    shown_ = &fade_->follow(cloud_, frame.stepSeconds);
+    shown_ = &fade_->follow(*shown_, frame.stepSeconds);
 }
 
 void OctreeDust::update(const Frame& frame) {
-    build(frame);
+    chooseVoxels(frame);
     if (settings_.render == Render::raycast) {
         const auto timing = frame.clock.measure(Stage::upload);
         uploadTree();
@@ -300,7 +318,7 @@ void OctreeDust::uploadCubes(std::span<const std::uint32_t> order) {
 void OctreeDust::uploadTree() {
     const VoxelCloud& cloud = shown();
     const Octree* tree = &tree_;
-    if (fade_) {  // fading voxels are not in the tree
+    if (fade_ || kept_) {  // fading voxels are not in the tree
         shownTree_.clear(cloud.lattice.depth);
         for (std::size_t i = 0; i < cloud.size(); ++i)
             shownTree_.makeNode(cloud.code(i), cloud.rise(i)).voxel = static_cast<std::uint32_t>(i + 1);
@@ -348,15 +366,16 @@ void reportMass(const ShownMass& mass, const DustSettings& settings, Facts& fact
     // With the other policies a voxel keeps only one of its particles; opacity by age alone does not conserve mass.
     const bool keepsAll =
         settings.tree.policy == OpacityPolicy::accumulate && settings.opacity == draw::OpacityFrom::dust;
-    if (settings.worldGrows)
+    if (settings.worldGrows && settings.keepSeconds == 0)  // a kept tree holds dust of another time
         facts.set("mass_lost", keepsAll ? std::abs(1 - built / ofParticles) : outside / ofParticles);
 }
 
 void OctreeDust::report(const Frame& frame, Facts& facts) const {
     facts.set("clipped", clipped_);
     facts.set("structure_bytes", static_cast<std::int64_t>(builder_->structureBytes(tree_)));
-    if (settings_.worldGrows) facts.set("world_edge_max", cloud_.lattice.edgeMetres);
-    if (facts.wants("mass_kept")) reportMass({frame.dust, cloud_.lattice, cloud_.mass, shown().mass}, settings_, facts);
+    if (settings_.worldGrows) facts.set("world_edge_max", shown().lattice.edgeMetres);
+    if (facts.wants("mass_kept"))
+        reportMass({frame.dust, shown().lattice, cloud_.mass, shown().mass}, settings_, facts);
 }
 
 MemoryReport OctreeDust::memory() const {

@@ -1,7 +1,8 @@
 // Draws dust as octree voxels: everything that the two octree methods share, which is all but the construction.
 //
-// Each frame rebuilds the tree over a cube that follows the vehicle and its trail, lists its voxels, optionally
-// cross-fades them, and draws them as billboards, as cubes or by ray marching through the tree.
+// Each frame rebuilds the tree over a cube that follows the vehicle and its trail and lists its voxels, or keeps those
+// of the last two trees and interpolates between them; optionally cross-fades them; and draws them as billboards, as
+// cubes or by ray marching through the tree.
 //
 // Source: Carr2006, 3.2 and 3.5. `mode=paper` sets a voxel's opacity by age alone and draws it as a plain circle.
 // Departs in `mode=fixed`: opacity follows the optical model shared by all methods (maths/transmittance.h).
@@ -46,6 +47,7 @@ struct DustSettings {
     draw::NoiseSettings noise{};
     bool crossFade = false;
     double crossFadeSeconds = 0.1;
+    double keepSeconds = 0;        ///< 0: a tree for every frame
     double worldEdgeMetres = 128;  ///< of the smallest world
     bool worldGrows = true;        ///< doubled, with one more level, until it holds all particles
 };
@@ -110,6 +112,7 @@ class DUSTBENCH_API OctreeDust final : public Method {
 
  private:
     void build(const Frame& frame);
+    void chooseVoxels(const Frame& frame);
     void uploadBillboards(std::span<const std::uint32_t> order);
     void uploadCubes(std::span<const std::uint32_t> order);
     void uploadTree();
@@ -122,6 +125,7 @@ class DUSTBENCH_API OctreeDust final : public Method {
     Octree shownTree_;  ///< tree of the faded voxels, used only for ray marching
     VoxelCloud cloud_;
     std::optional<VoxelOpacity> byAge_;
+    std::optional<KeptVoxels> kept_;
     std::optional<CrossFade> fade_;
     const VoxelCloud* shown_ = &cloud_;
     draw::DepthSort sort_;

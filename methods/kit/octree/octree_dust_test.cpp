@@ -336,28 +336,6 @@ TEST(OctreeDust, DrawsTheSameAgainInEveryWay) {
         }
 }
 
-TEST(OctreeDust, CrossFadingLeavesLessToPop) {
-    std::map<bool, double> jump;
-    for (const bool fades : {false, true}) {
-        Moment moment(60);
-        DustSettings settings = settingsOf(Render::raycast, OpacityPolicy::max);
-        settings.crossFade = fades;
-        OctreeDust method = make(settings);
-        method.prepare(moment.scene, {}, Moment::device());
-        method.update(moment.frame());
-        pictures::Image last = moment.draw(method);
-        for (int frame = 0; frame < 12; ++frame) {
-            for (float& x : moment.dust.x) x += 0.05f;
-            method.update(moment.frame());
-            const pictures::Image now = moment.draw(method);
-            for (std::size_t i = 0; i < now.pixels.size(); ++i)
-                jump[fades] += std::pow(static_cast<double>(now.pixels[i].a - last.pixels[i].a), 2);
-            last = now;
-        }
-    }
-    EXPECT_LT(std::sqrt(jump[true]), 0.4 * std::sqrt(jump[false]));
-}
-
 TEST(OctreeSettings, RefusesMoreLevelsThanThereAre) {
     MethodInfo info;
     declareDust(info);

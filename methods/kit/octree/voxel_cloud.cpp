@@ -13,8 +13,26 @@ namespace {
 
 constexpr std::size_t cloudBlock = 4096;
 
-/// A voxel without a target is dropped when its optical depth falls below this: less than half a step of 8 bits.
+/// A fading voxel is dropped when its optical depth falls below this: less than half a step of 8 bits.
 constexpr float minimumOpticalDepth = 1.0f / 1024;
+/// Frames are not exactly as long as intervals.
+constexpr double dueEarlySeconds = 1e-6;
+
+/// Appends voxel `i` of `from`, with the given mass.
+void append(const VoxelCloud& from, std::size_t i, float mass, VoxelCloud& to) {
+    to.place.push_back(from.place[i]);
+    to.x.push_back(from.x[i]);
+    to.y.push_back(from.y[i]);
+    to.z.push_back(from.z[i]);
+    to.edge.push_back(from.edge[i]);
+    to.mass.push_back(mass);
+    to.age.push_back(from.age[i]);
+    if (!from.noise.empty()) to.noise.push_back(from.noise[i]);
+    if (!from.coloured()) return;
+    to.red.push_back(from.red[i]);
+    to.green.push_back(from.green[i]);
+    to.blue.push_back(from.blue[i]);
+}
 
 }  // namespace
 
@@ -72,81 +90,84 @@ void VoxelCloud::take(const Octree& tree, const Puffs& store, const VoxelRule& r
     });
 }
 
-CrossFade::CrossFade(MemoryLedger& ledger, double timeConstantSeconds)
-    : timeConstantSeconds_(timeConstantSeconds), shown_(ledger), next_(ledger), order_(ledger.account("voxel list")) {}
-
-/// Appends voxel `i` of `from`, with the given mass, to `next_`.
-void CrossFade::append(const VoxelCloud& from, std::size_t i, float mass) {
-    next_.place.push_back(from.place[i]);
-    next_.x.push_back(from.x[i]);
-    next_.y.push_back(from.y[i]);
-    next_.z.push_back(from.z[i]);
-    next_.edge.push_back(from.edge[i]);
-    next_.mass.push_back(mass);
-    next_.age.push_back(from.age[i]);
-    if (!from.noise.empty()) next_.noise.push_back(from.noise[i]);
-    if (!from.coloured()) return;
-    next_.red.push_back(from.red[i]);
-    next_.green.push_back(from.green[i]);
-    next_.blue.push_back(from.blue[i]);
-}
-
 /// Moves the voxels to a world shifted by whole cells: the codes change, and with them the order.
-void CrossFade::moveTo(const Lattice& lattice) {
-    if (shown_.lattice == lattice) return;
-    const glm::ivec3 shift = shown_.lattice.firstCell() - lattice.firstCell();
+void VoxelMix::moveTo(const Lattice& lattice, VoxelCloud& cloud) {
+    if (cloud.lattice == lattice) return;
+    const glm::ivec3 shift = cloud.lattice.firstCell() - lattice.firstCell();
     const auto cells = static_cast<int>(lattice.cellsPerEdge());
-    for (std::size_t i = 0; i < shown_.size(); ++i) {
-        const glm::ivec3 cell = glm::ivec3(mortonCell(shown_.code(i))) + shift;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const glm::ivec3 cell = glm::ivec3(mortonCell(cloud.code(i))) + shift;
         const bool inside =
             glm::all(glm::greaterThanEqual(cell, glm::ivec3(0))) && glm::all(glm::lessThan(cell, glm::ivec3(cells)));
-        const std::uint64_t level = shown_.place[i] & 15;
-        shown_.place[i] = inside ? mortonCode(static_cast<std::uint32_t>(cell.x), static_cast<std::uint32_t>(cell.y),
-                                              static_cast<std::uint32_t>(cell.z))
-                                           << 4 |
-                                       level
-                                 : std::numeric_limits<std::uint64_t>::max();
+        const std::uint64_t level = cloud.place[i] & 15;
+        cloud.place[i] = inside ? mortonCode(static_cast<std::uint32_t>(cell.x), static_cast<std::uint32_t>(cell.y),
+                                             static_cast<std::uint32_t>(cell.z))
+                                          << 4 |
+                                      level
+                                : std::numeric_limits<std::uint64_t>::max();
     }
-    order_.resize(shown_.size());
+    order_.resize(cloud.size());
     std::iota(order_.begin(), order_.end(), 0u);
-    std::ranges::sort(order_, [this](std::uint32_t a, std::uint32_t b) { return shown_.place[a] < shown_.place[b]; });
-    next_.clear();
+    std::ranges::sort(order_, [&](std::uint32_t a, std::uint32_t b) { return cloud.place[a] < cloud.place[b]; });
+    moved_.clear();
     for (const std::uint32_t i : order_)
-        if (shown_.place[i] != std::numeric_limits<std::uint64_t>::max()) append(shown_, i, shown_.mass[i]);
-    std::swap(shown_, next_);
-    shown_.lattice = lattice;
+        if (cloud.place[i] != std::numeric_limits<std::uint64_t>::max()) append(cloud, i, cloud.mass[i], moved_);
+    std::swap(cloud, moved_);
+    cloud.lattice = lattice;
 }
 
-const VoxelCloud& CrossFade::follow(const VoxelCloud& target, double stepSeconds) {
-    next_.lattice = target.lattice;
-    if (first_) {
-        first_ = false;
-        next_.clear();
-        for (std::size_t i = 0; i < target.size(); ++i) append(target, i, target.mass[i]);
-        std::swap(shown_, next_);
-        return shown_;
-    }
-    moveTo(target.lattice);
-    next_.clear();
-    next_.lattice = target.lattice;
-    const auto step = static_cast<float>(-std::expm1(-stepSeconds / timeConstantSeconds_));
+void VoxelMix::mix(VoxelCloud& from, const VoxelCloud& to, float share, float dropBelow, VoxelCloud& mixed) {
+    moveTo(to.lattice, from);
+    mixed.clear();
+    mixed.lattice = to.lattice;
     std::size_t old = 0, now = 0;
-    while (old < shown_.size() || now < target.size()) {
-        const bool fades = now == target.size() || (old < shown_.size() && shown_.place[old] < target.place[now]);
-        const bool appears = !fades && (old == shown_.size() || target.place[now] < shown_.place[old]);
+    while (old < from.size() || now < to.size()) {
+        const bool fades = now == to.size() || (old < from.size() && from.place[old] < to.place[now]);
+        const bool appears = !fades && (old == from.size() || to.place[now] < from.place[old]);
         if (fades) {
-            const float mass = shown_.mass[old] * (1 - step);
-            if (mass >= minimumOpticalDepth * shown_.edge[old] * shown_.edge[old]) append(shown_, old, mass);
+            const float mass = from.mass[old] * (1 - share);
+            if (mass >= dropBelow * from.edge[old] * from.edge[old]) append(from, old, mass, mixed);
             ++old;
             continue;
         }
-        const float before = appears ? 0 : shown_.mass[old];
-        append(target, now, before + step * (target.mass[now] - before));
+        const float before = appears ? 0 : from.mass[old];
+        append(to, now, before + share * (to.mass[now] - before), mixed);
         old += appears ? 0 : 1;
         ++now;
     }
+}
+
+CrossFade::CrossFade(MemoryLedger& ledger, double timeConstantSeconds)
+    : timeConstantSeconds_(timeConstantSeconds), shown_(ledger), next_(ledger), mix_(ledger) {}
+
+const VoxelCloud& CrossFade::follow(const VoxelCloud& target, double stepSeconds) {
+    const double share = first_ ? 1 : -std::expm1(-stepSeconds / timeConstantSeconds_);
+    first_ = false;
+    mix_.mix(shown_, target, static_cast<float>(share), minimumOpticalDepth, next_);
     std::swap(shown_, next_);
     return shown_;
+}
+
+KeptVoxels::KeptVoxels(MemoryLedger& ledger, double keepSeconds)
+    : keepSeconds_(keepSeconds), before_(ledger), last_(ledger), between_(ledger), mix_(ledger) {}
+
+bool KeptVoxels::advance(double stepSeconds) {
+    sinceSeconds_ += stepSeconds;
+    intervalSeconds_ = stepSeconds * std::ceil((keepSeconds_ - dueEarlySeconds) / stepSeconds);
+    return trees_ == 0 || sinceSeconds_ + dueEarlySeconds >= keepSeconds_;
+}
+
+void KeptVoxels::take(VoxelCloud& built) {
+    std::swap(before_, last_);
+    std::swap(last_, built);
+    sinceSeconds_ = 0;
+    trees_ = std::min(trees_ + 1, 2);
+}
+
+const VoxelCloud& KeptVoxels::between() {
+    if (trees_ < 2) return last_;
+    mix_.mix(before_, last_, static_cast<float>(std::min(sinceSeconds_ / intervalSeconds_, 1.0)), 0, between_);
+    return between_;
 }
 
 }  // namespace dustbench::octree

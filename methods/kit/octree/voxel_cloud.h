@@ -47,6 +47,27 @@ struct VoxelCloud {
     LedgerVector<draw::NoisePlace> noise;  ///< that of the representing particle, at the voxel's centre; empty if off
 };
 
+/// The voxels of two clouds, each with a mass between those that it has in the two:
+///
+///     m = m_from + share·(m_to − m_from), where a voxel that a cloud does not have has no mass there
+///
+/// Owns scratch memory, booked on a ledger. Threads: one.
+class VoxelMix {
+ public:
+    explicit VoxelMix(MemoryLedger& ledger) : moved_(ledger), order_(ledger.account("voxel list")) {}
+
+    /// Replaces `mixed`. The places of both clouds must ascend, and those of `mixed` do. `from` is moved to the lattice
+    /// of `to` if the world has moved, and then lacks the voxels that are outside of it. Voxels that `to` does not have
+    /// are left out if their optical depth is below `dropBelow`.
+    void mix(VoxelCloud& from, const VoxelCloud& to, float share, float dropBelow, VoxelCloud& mixed);
+
+ private:
+    void moveTo(const Lattice& lattice, VoxelCloud& cloud);
+
+    VoxelCloud moved_;
+    LedgerVector<std::uint32_t> order_;
+};
+
 /// Cross-fades voxels between frames: a voxel's mass follows that of the octree with a time constant, so that no voxel
 /// pops in or out.
 ///
@@ -63,13 +84,38 @@ class CrossFade {
     const VoxelCloud& follow(const VoxelCloud& target, double stepSeconds);
 
  private:
-    void moveTo(const Lattice& lattice);
-    void append(const VoxelCloud& from, std::size_t i, float mass);
-
     double timeConstantSeconds_;
     bool first_ = true;
     VoxelCloud shown_, next_;
-    LedgerVector<std::uint32_t> order_;
+    VoxelMix mix_;
+};
+
+/// Keeps the voxels of a tree for a while, and shows those between the last two trees, one interval later:
+///
+///     m = m_before + s·(m_last − m_before), s: share of the interval since the last tree was built
+///
+/// Owns the voxels of both trees and those between them, booked on a ledger. Threads: one.
+/// Source: Carr2006, 5 (future work: "storing the volumetric structure from frame to frame, and interpolating").
+/// Departs: the formula is ours.
+class KeptVoxels {
+ public:
+    /// `keepSeconds`: the interval, rounded up to whole frames; above 0.
+    KeptVoxels(MemoryLedger& ledger, double keepSeconds);
+
+    /// Advances by one frame. Returns true if a tree is due: `take` must follow with its voxels.
+    bool advance(double stepSeconds);
+    /// Exchanges `built`, whose places must ascend, for the voxels of the tree before the last.
+    void take(VoxelCloud& built);
+    /// The voxels to draw.
+    const VoxelCloud& between();
+
+ private:
+    double keepSeconds_;
+    double intervalSeconds_ = 0;  ///< in whole frames
+    double sinceSeconds_ = 0;     ///< the last tree was built
+    int trees_ = 0;               ///< 0, 1, or more
+    VoxelCloud before_, last_, between_;
+    VoxelMix mix_;
 };
 
 }  // namespace dustbench::octree

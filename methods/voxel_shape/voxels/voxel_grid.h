@@ -114,4 +114,11 @@ class VoxelGrid {
 /// symmetric.
 [[nodiscard]] std::vector<glm::vec3> normalsOf(const VoxelGrid& grid);
 
+/// The unit axis of the row at each of `grid.active()` that is part of a single row of voxels, as thin spikes are; else
+/// (0, 0, 0). The component of the largest size is positive.
+///
+/// A row: of the active voxels that touch each other from this one to three voxels away, the centres vary across their
+/// principal axis less than a tenth as much as along it.
+[[nodiscard]] std::vector<glm::vec3> rowsOf(const VoxelGrid& grid);
+
 }  // namespace dustbench::voxel_shape

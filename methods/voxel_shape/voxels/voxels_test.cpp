@@ -293,5 +293,34 @@ TEST(SolidSpace, IsWhatLiesWithinASolidWhereverItStands) {
     EXPECT_GT(within, 500);
 }
 
+/// The rows of a grid of 16³ with these active voxels.
+std::vector<glm::vec3> rowsAt(const std::vector<glm::ivec3>& cells) {
+    static MemoryLedger ledger;
+    MarkedVoxels marked(Lattice{glm::ivec3(16), glm::vec3(0), 0.1f});
+    for (const glm::ivec3& cell : cells) marked.marked[marked.lattice.index(cell)] = 1;
+    return rowsOf(VoxelGrid(ledger, marked, Voxel()));
+}
+
+TEST(Rows, AreFoundAlongEveryDirectionAndOnlyWhereOneVoxelIsBesideNoOther) {
+    for (const glm::ivec3 along : {glm::ivec3(1, 0, 0), {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, -1, 1}}) {
+        std::vector<glm::ivec3> cells;
+        for (int i = -5; i <= 5; ++i) cells.push_back(glm::ivec3(8) + i * along);
+        for (const glm::vec3& row : rowsAt(cells))
+            EXPECT_GT(std::abs(glm::dot(row, glm::normalize(glm::vec3(along)))), 0.999f)
+                << along.x << along.y << along.z;
+    }
+    std::vector<glm::ivec3> slanted, wide, twoRows;
+    for (int i = 0; i < 12; ++i) {
+        slanted.emplace_back(i, i / 3, 5);
+        for (int across = 0; across < 3; ++across) wide.emplace_back(i, across, 5);
+        twoRows.emplace_back(i, 4, 5);
+        twoRows.emplace_back(i, 7, 5);  // near, but it does not touch the other
+    }
+    for (const glm::vec3& row : rowsAt(slanted)) EXPECT_GT(row.x, 0.9f);
+    for (const glm::vec3& row : rowsAt(wide)) EXPECT_EQ(row, glm::vec3(0));
+    for (const glm::vec3& row : rowsAt(twoRows)) EXPECT_GT(row.x, 0.999f);
+    EXPECT_EQ(rowsAt({{3, 3, 3}}).front(), glm::vec3(0));
+}
+
 }  // namespace
 }  // namespace dustbench::voxel_shape

@@ -80,6 +80,7 @@ bool isBuiltOnGpu(const ParameterValues& values) {
 GpuOctreeDust::GpuOctreeDust(const DustSettings& settings) : settings_(settings) {
     requireOnGpu(settings.sort != draw::SortKind::quicksort, "sort", "quicksort", "radix|none");
     requireOnGpu(!settings.crossFade, "crossfade", "on", "off");
+    requireOnGpu(settings.keepSeconds == 0, "keep_time", "more than 0", "0");
     requireOnGpu(!settings.noise.isOn(), "noise", "more than 0", "0");
 }
 

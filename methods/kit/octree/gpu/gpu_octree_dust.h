@@ -42,7 +42,7 @@ class DUSTBENCH_API PuffUpload {
 
 class DUSTBENCH_API GpuOctreeDust final : public Method {
  public:
-    /// Throws InputError for settings that only the CPU has: quicksort and cross-fading.
+    /// Throws InputError for settings that only the CPU has: quicksort, kept voxels and cross-fading.
     explicit GpuOctreeDust(const DustSettings& settings);
 
     void prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) override;

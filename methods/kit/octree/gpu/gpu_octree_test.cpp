@@ -321,6 +321,9 @@ TEST(GpuOctreeDust, RefusesWhatOnlyTheCpuHas) {
     settings = {};
     settings.crossFade = true;
     EXPECT_THROW(GpuOctreeDust{settings}, InputError);
+    settings = {};
+    settings.keepSeconds = 0.1;
+    EXPECT_THROW(GpuOctreeDust{settings}, InputError);
 }
 
 }  // namespace

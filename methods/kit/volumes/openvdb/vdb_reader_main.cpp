@@ -5,6 +5,13 @@
 //     dustbench_vdb_reader --points FILE
 #include "methods/kit/volumes/openvdb/vdb_reader.h"
 
+#ifdef __SANITIZE_ADDRESS__
+/// In place of the limit that limitVdbReader sets without sanitizers.
+extern "C" const char* __asan_default_options() {  // NOLINT(bugprone-reserved-identifier): AddressSanitizer's name
+    return "hard_rss_limit_mb=768";
+}
+#endif
+
 int main(int argc, char** argv) {
     if (argc != 3) return 3;
     dustbench::volumes::limitVdbReader(dustbench::volumes::vdbFile(argv[1], argv[2]));
