@@ -5,6 +5,7 @@ Exit code: 77 if clang-tidy is not installed (`make lint` installs it).
 """
 import importlib.machinery
 import importlib.util
+import json
 import pathlib
 import re
 import shutil
@@ -53,8 +54,8 @@ def checks(findings):
 
 
 def main():
-    if not shutil.which(lint.TOOL):
-        print(f"{lint.TOOL} is not installed")
+    if not shutil.which(lint.TOOL) or not shutil.which(lint.COMPILER):
+        print(f"{lint.TOOL} or {lint.COMPILER} is not installed")
         sys.exit(77)
     (ROOT / "build").mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory(dir=ROOT / "build") as folder: # within the tree, for .clang-tidy
@@ -74,6 +75,16 @@ def main():
         faults = [f"{how}: {check} was not found" for how, findings in (("alone", alone), ("together", together)) for check in PLANTED
                   if check not in checks(findings)]
         faults += [f"only alone: {line}" for line in {line for line, _ in alone} - {line for line, _ in together}]
+        borrower = sources / "borrower.cpp"
+        borrower.write_text("std::vector<int> borrowed;\n")  # compiles after a file that includes <vector>
+        owner = sources / "a_owner.cpp"
+        owner.write_text("#include <vector>\n")
+        commands = {str(file): ["clang++", *options, "-o", "out.o", "-c", str(file)] for file in (owner, borrower)}
+        lint.COMMANDS = pathlib.Path(folder) / "compile_commands.json"
+        lint.COMMANDS.write_text(json.dumps([{"directory": folder, "file": file, "arguments": words} for file, words in commands.items()]))
+        read = dict(lint.read(list(commands), commands))
+        if read[str(owner)] or not read[str(borrower)]:
+            faults.append(f"a file without an include: expected a finding there alone, got {read}")
         if lint.tidy_joined([str(file) for file in clean], options):
             faults.append("clean files read together: got a finding")
     for fault in faults:
