@@ -106,8 +106,9 @@ TEST(KeptVoxels, AreShownLinearlyBetweenTheLastTwoTrees) {
 TEST(KeptVoxels, AreKeptForWholeFramesSoThatNothingJumpsAtTheirEnd) {
     MemoryLedger ledger;
     KeptVoxels kept(ledger, 0.12);  // three frames of 0.05 s
-    std::vector<float> masses;
-    for (int frame = 0; frame < 12; ++frame) masses.push_back(keptAfterFrame(ledger, kept, 3, frame < 3 ? 1 : 4).at(3));
+    std::vector<float> masses(12);
+    for (std::size_t frame = 0; frame < masses.size(); ++frame)
+        masses[frame] = keptAfterFrame(ledger, kept, 3, frame < 3 ? 1 : 4).at(3);
     for (std::size_t i = 1; i < masses.size(); ++i) EXPECT_LE(masses[i] - masses[i - 1], 1.001f) << i;
     EXPECT_FLOAT_EQ(masses.front(), 1);
     EXPECT_FLOAT_EQ(masses.back(), 4);
