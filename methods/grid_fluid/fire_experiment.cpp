@@ -269,7 +269,7 @@ Picture moved(const Picture& picture, double metres) {
 }
 
 /// Compares the volume with video textures: the references' pictures of the next three fires, at the place of this one.
-/// The nearest counts. The control's video is of this very fire: its other reference.
+/// The nearest counts. The control's video is of this very fire: its reference as a volume.
 void measureVideos(Found& found, const std::vector<Shown>& fires) {
     constexpr std::size_t videos = 3;
     for (std::size_t i = 0; i < fires.size(); ++i)
@@ -282,7 +282,8 @@ void measureVideos(Found& found, const std::vector<Shown>& fires) {
                 nearest = std::min(nearest, distanceOf(video, reference));
             }
             found["error_ratio_video" + name].push_back(std::log(volume / nearest));
-            const Picture& own = fires[i].references.at(name == "_by_paths" ? "_by_volume" : "_by_paths");
+            if (name != "_by_paths") continue;
+            const Picture& own = fires[i].references.at("_by_volume");
             found["control_error_ratio_video" + name].push_back(std::log(volume / distanceOf(own, reference)));
         }
 }

@@ -49,7 +49,7 @@ enum class Paths { forgotten, kept };
 /// and the controls, which must reverse these:
 ///     control_error_ratio_REFERENCE, control_correlation_lead_REFERENCE
 ///                                  with the transfer function reversed for the volume
-///     control_error_ratio_video_REFERENCE
+///     control_error_ratio_video_by_paths
 ///                                  with a video of this very fire
 ///     control_pieces_lead          with pieces that a grid can resolve, two cells wide
 /// REFERENCE: by_paths, by_volume. Of three widths of particles, the one with the smallest error counts.

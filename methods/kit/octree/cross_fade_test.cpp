@@ -169,13 +169,13 @@ TEST(OctreeDust, KeepsATreeAndShowsItsVoxelsLater) {
         DriftingDust moment;
         DustSettings settings;
         settings.render = render;
-        OctreeDust anew = overMap(settings);
+        OctreeDust rebuilt = overMap(settings);
         settings.keepSeconds = 2 * moment.frame().stepSeconds;
         OctreeDust kept = overMap(settings);
-        for (OctreeDust* method : {&anew, &kept}) method->prepare(moment.scene, {}, DriftingDust::device());
+        for (OctreeDust* method : {&rebuilt, &kept}) method->prepare(moment.scene, {}, DriftingDust::device());
         std::vector<double> depths;
         for (std::size_t frame = 0; frame < 9; ++frame) {
-            depths.push_back(summedAlpha(moment.updateAndDraw(anew)));
+            depths.push_back(summedAlpha(moment.updateAndDraw(rebuilt)));
             const double shown = summedAlpha(moment.updateAndDraw(kept));
             if (frame >= 2 && frame % 2 == 0) {
                 EXPECT_NEAR(shown / depths[frame - 2], 1, 1e-5) << frame;

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t corners = 8, freedoms = 3 * corners, strains = 6;
 constexpr std::size_t elementsABlock = 256, numbersABlock = 4096;
 constexpr double smallestResidual = 1e-8;  ///< relative to the load's
-constexpr std::size_t fewestIterations = 1000, iterationsPerNode = 2;
+constexpr std::size_t minimumIterations = 1000, iterationsPerNode = 2;
 
 using Strain = std::array<std::array<double, freedoms>, strains>;      ///< B: strain by displacements
 using Elasticity = std::array<std::array<double, strains>, strains>;   ///< C: stress by strain
@@ -206,7 +206,7 @@ Numbers equilibrium(const Elements& elements) {
     for (std::size_t i = 0; i < size; ++i) direction[i] = scaled[i] = residual[i] / d[i];
     double steepness = product(residual, scaled);
     const double small = smallestResidual * smallestResidual * product(residual, residual);
-    const std::size_t limit = std::max(fewestIterations, iterationsPerNode * elements.nodes());
+    const std::size_t limit = std::max(minimumIterations, iterationsPerNode * elements.nodes());
     for (std::size_t iteration = 0; iteration < limit; ++iteration) {
         if (product(residual, residual) <= small) return u;
         elements.multiply(direction, product_);
