@@ -272,7 +272,7 @@ Picture moved(const Picture& picture, double metres) {
 /// The nearest counts. The control's video is of this very fire: its reference as a volume.
 void measureVideos(Found& found, const std::vector<Shown>& fires) {
     constexpr std::size_t videos = 3;
-    for (std::size_t i = 0; i < fires.size(); ++i)
+    for (std::size_t i = 0; i < fires.size(); ++i) {
         for (const auto& [name, reference] : fires[i].references) {
             const double volume = distanceOf(fires[i].volume, reference);
             double nearest = std::numeric_limits<double>::infinity();
@@ -282,10 +282,11 @@ void measureVideos(Found& found, const std::vector<Shown>& fires) {
                 nearest = std::min(nearest, distanceOf(video, reference));
             }
             found["error_ratio_video" + name].push_back(std::log(volume / nearest));
-            if (name != "_by_paths") continue;
-            const Picture& own = fires[i].references.at("_by_volume");
-            found["control_error_ratio_video" + name].push_back(std::log(volume / distanceOf(own, reference)));
         }
+        const Picture &reference = fires[i].references.at("_by_paths"), &own = fires[i].references.at("_by_volume");
+        found["control_error_ratio_video_by_paths"].push_back(
+            std::log(distanceOf(fires[i].volume, reference) / distanceOf(own, reference)));
+    }
 }
 
 struct Pieces {

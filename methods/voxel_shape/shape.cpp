@@ -227,8 +227,10 @@ void readFlow(TomlReader& file, const std::filesystem::path& folder, Shape& shap
 void readRowForce(TomlReader& file, Shape& shape) {
     if (!file.has("row_force")) return;
     TomlReader table = file.table("row_force");
-    const float rate = number(table, "radians_per_second", 0, 60, 3);
-    shape.rowForce = {Force::helix, {rate, 0, 0}, number(table, "metres_per_radian", -10, 10, 0)};
+    shape.rowForce.emplace();
+    RowForce& force = *shape.rowForce;
+    force.radiansPerSecond = number(table, "radians_per_second", 0, 60, force.radiansPerSecond);
+    force.metresPerRadian = number(table, "metres_per_radian", -10, 10, force.metresPerRadian);
     table.finish();
 }
 

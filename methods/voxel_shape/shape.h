@@ -85,6 +85,12 @@ struct StressLook {
     float fullMetres = 0;  ///< displacement at which the colour is fully reached; 0: stress is not shown
 };
 
+/// A helix around the axis of a single row of voxels.
+struct RowForce {
+    float radiansPerSecond = 3;
+    float metresPerRadian = 0;
+};
+
 struct TrackKey {
     double timeSeconds = 0;
     glm::dvec3 position{0};
@@ -116,7 +122,7 @@ struct Shape {
     std::uint32_t particles = 40'000;
     VoxelChange voxels;  ///< attributes of all voxels; complete except for the colour
     std::vector<VoxelEdit> edits;
-    std::optional<VoxelChange::ForceEffect> rowForce;  ///< of voxels in single rows that have no force; |vector|: rate
+    std::optional<RowForce> rowForce;  ///< of voxels in single rows that have no force
     Motion motion;
     Collidable collidesWith;
     Impact impact;

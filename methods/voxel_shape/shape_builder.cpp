@@ -88,12 +88,12 @@ void setVoxels(VoxelGrid& grid, const Shape& shape) {
 }
 
 /// Gives the voxels of single rows a force around the row's axis, unless they have one.
-void setRowForces(VoxelGrid& grid, const VoxelChange::ForceEffect& force) {
+void setRowForces(VoxelGrid& grid, const RowForce& force) {
     const std::vector<glm::vec3> rows = rowsOf(grid);
     for (std::size_t k = 0; k < rows.size(); ++k) {
         Voxel& voxel = grid.voxels()[grid.active()[k]];
         if (rows[k] != glm::vec3(0) && voxel.force == glm::vec3(0))
-            voxel.setForce(force.kind, glm::length(force.vector) * rows[k], force.number);
+            voxel.setForce(Force::helix, force.radiansPerSecond * rows[k], force.metresPerRadian);
     }
 }
 

@@ -230,9 +230,10 @@ std::vector<double> stressUnder(const ElasticLoad& load, const VoxelGrid& grid) 
     const Elements elements(grid, load);
     const Numbers u = equilibrium(elements);
     if (u.empty())
-        throw InputError(load.where +
-                         "[load]: the loaded voxels are not held, expected voxels that are joined by their "
-                         "faces from box 'at' to box 'held'");
+        throw InputError(
+            load.where +
+            "[load]: nothing holds the loaded voxels, expected a chain of voxels that share faces from box "
+            "'at' to box 'held'");
     const double edge = static_cast<double>(grid.lattice().edgeMetres);
     std::vector<double> stresses(grid.active().size());
     for (std::size_t e = 0; e < stresses.size(); ++e) stresses[e] = elements.stress(e, u) / (edge * edge);

@@ -40,7 +40,7 @@ struct ElasticLoad {
 };
 
 /// The von Mises stress at the centre of each of `grid.active()`, in Pa. Throws InputError if a box contains no active
-/// voxel, or if there is no equilibrium: faces must join loaded voxels to held ones.
+/// voxel, or if nothing holds the loaded voxels: a chain of voxels that share faces must connect them to held ones.
 [[nodiscard]] std::vector<double> stressUnder(const ElasticLoad& load, const VoxelGrid& grid);
 
 /// Mixes the colours of the active voxels, inside and fading, with the load's colour by their stress.
