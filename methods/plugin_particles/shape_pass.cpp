@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "methods/kit/draw/billboards.h"
@@ -100,8 +102,9 @@ using particles::Primitive;
 
 std::optional<draw::PuffTextures> picturesOf(gpu::Device& device, const Look& look) {
     if (look.picture.empty()) return std::nullopt;
-    return draw::PuffTextures(device, files::findData("puff picture", "textures", look.picture, ".png"),
-                              draw::PuffTextures::Frames::separate);
+    return draw::PuffTextures(
+        device, files::findData("puff picture", "textures", look.picture, ".png"),
+        look.framesPerSecond > 0 ? draw::PuffTextures::Frames::looped : draw::PuffTextures::Frames::separate);
 }
 
 draw::BillboardStyle styleOf(const Look& look) {
@@ -142,6 +145,7 @@ class SpritePass final : public ShapePass {
         const auto n = static_cast<float>(look_.copies);
         return look_.fading ? 2 * static_cast<float>(copy + 1) / (n * (n + 1)) : 1 / n;
     }
+    [[nodiscard]] float frameOf(const Puffs& puffs, std::size_t i) const;
     void drawMean(const scene::View& view, const gpu::Layer& layer);
 
     Look look_;
@@ -152,15 +156,25 @@ class SpritePass final : public ShapePass {
     glm::vec3 colourOfAll_{1};
 };
 
+/// The picture that sprite `i` shows. A video has a fraction, and begins elsewhere for each sprite: multiples of the
+/// golden ratio are far apart.
+float SpritePass::frameOf(const Puffs& puffs, std::size_t i) const {
+    const auto frames = static_cast<std::uint64_t>(pictures_->frames());
+    if (look_.framesPerSecond == 0) return static_cast<float>(puffs.serial[i] % frames);
+    const auto all = static_cast<double>(frames);
+    const double begin = std::fmod(static_cast<double>(puffs.serial[i]) / std::numbers::phi, 1.0) * all;
+    const double played = static_cast<double>(puffs.age[i]) * static_cast<double>(look_.framesPerSecond);
+    return static_cast<float>(std::fmod(begin + played, all));
+}
+
 void SpritePass::upload(const Drawn& drawn) {
     const Puffs& p = drawn.puffs;
     colourOfAll_ = p.colourOfAll;
     const draw::InstanceLayout layout = billboards_.layout(!p.uniformColour);
-    const std::uint64_t frames = pictures_ ? static_cast<std::uint64_t>(pictures_->frames()) : 1;
     const bool moving = look_.primitive == Primitive::movingSprites;
     fill(billboards_.map(p.size(), layout), layout.floats, drawn, [&](float* value, std::size_t i) {
         for (const float next : {p.x[i], p.y[i], p.z[i], p.radius[i], p.opacity[i]}) *value++ = next;
-        if (pictures_) *value++ = static_cast<float>(p.serial[i] % frames);
+        if (pictures_) *value++ = frameOf(p, i);
         if (moving) {
             const glm::vec3 way = drawn.wayOf(i, look_.seconds);
             for (const float next : {way.x, way.y, way.z}) *value++ = next;

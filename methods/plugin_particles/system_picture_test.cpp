@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "methods/contract/errors.h"
 #include "methods/kit/draw/test_canvas.h"
 #include "methods/kit/particles/part.h"
 #include "methods/kit/testing/test_moment.h"
@@ -122,6 +123,29 @@ TEST(SystemPicture, AHybridIsItsLineAndItsPoint) {
     for (std::size_t i = 0; i < hybrid.pixels.size(); ++i)
         expectNear(hybrid.pixels[i], line.pixels[i] + point.pixels[i]);
     EXPECT_GT(at(point, 80, 60).r, 0.4f);
+}
+
+TEST(SystemPicture, ASpriteWithAVideoPlaysItInALoopFromAFrameOfItsOwn) {
+    Canvas canvas(1);
+    const auto after = [&](float seconds, std::uint64_t serial) {
+        canvas.dust.age[0] = seconds, canvas.dust.serial[0] = serial;
+        return canvas.drawn(lookOf("sprites", {{"picture", "fire_video"}, {"frames_per_second", "12"}})).pixels;
+    };
+    constexpr float loop = 2;  // of 24 frames
+    EXPECT_EQ(after(0, 0), after(loop, 0));
+    EXPECT_EQ(after(0.75f, 0), after(0.75f + 3 * loop, 0));
+    EXPECT_NE(after(0, 0), after(0.5f, 0));
+    EXPECT_NE(after(0, 0), after(0, 1));
+    // Without a rate, a sprite shows one frame all its life.
+    const auto still = [&](float seconds) {
+        canvas.dust.age[0] = seconds;
+        return canvas.drawn(lookOf("sprites", {{"picture", "fire_video"}})).pixels;
+    };
+    EXPECT_EQ(still(0), still(0.5f));
+}
+
+TEST(SystemPicture, AVideoNeedsAPicture) {
+    EXPECT_THROW(static_cast<void>(lookOf("sprites", {{"frames_per_second", "12"}})), InputError);
 }
 
 TEST(SystemPicture, TheLeftEyeIsGreenAndTheRightOneRed) {

@@ -279,6 +279,40 @@ TEST(PuffTextures, CrossFadeBetweenNeighbours) {
     EXPECT_NE(images[3].pixels, images[0].pixels);
 }
 
+TEST(PuffTextures, PlayAVideoAsALoopAsBrightAsRecorded) {
+    // Three frames of alphas 0.8, 0.2 and 0.4, and of brightness 0.25, 1 and 0.5.
+    const auto file = std::filesystem::temp_directory_path() / "dustbench_video_puff.exr";
+    constexpr float alphas[] = {0.8f, 0.2f, 0.4f}, lights[] = {0.25f, 1, 0.5f};
+    pictures::Image strip{12, 4, std::vector<glm::vec4>(48)};
+    for (std::size_t i = 0; i < strip.pixels.size(); ++i) {
+        const std::size_t frame = i % 12 / 4;
+        strip.pixels[i] = alphas[frame] * glm::vec4(glm::vec3(lights[frame]), 1);
+    }
+    pictures::writeImage(strip, file);
+    const PuffTextures video(Canvas::device(), file, PuffTextures::Frames::looped);
+    std::filesystem::remove(file);
+    ASSERT_EQ(video.frames(), 3);
+
+    Canvas canvas;
+    Billboards billboards(Canvas::device(), {}, &video);
+    Puff puff{canvas.at({0, 0, -10}), 2, 0.5f};
+    const auto seen = [&](float frame) {
+        puff.frame = frame;
+        const pictures::Image image = canvas.draw(billboards, {puff});
+        const glm::vec4 middle = image.pixels[static_cast<std::size_t>(60 * image.width + 80)];
+        return std::pair(-std::log1p(-middle.a), middle.g / middle.a);  // depth and brightness
+    };
+    const auto [depth, light] = seen(0);
+    for (int frame = 1; frame < 3; ++frame) {
+        const auto [depthThen, lightThen] = seen(static_cast<float>(frame));
+        EXPECT_NEAR(depthThen / depth, alphas[frame] / alphas[0], 0.01) << frame;
+        EXPECT_NEAR(lightThen / light, lights[frame] / lights[0], 0.02) << frame;
+    }
+    // The last frame fades into the first.
+    EXPECT_NEAR(seen(2.25f).first, 0.75f * seen(2).first + 0.25f * depth, 1e-4);
+    EXPECT_NEAR(seen(2.999f).first, depth, 2e-3 * static_cast<double>(depth));
+}
+
 TEST(PuffTextures, SayWhatIsWrongWithAFileInOneLine) {
     const auto folder = std::filesystem::temp_directory_path();
     const auto broken = folder / "dustbench_broken_puff.png", oblong = folder / "dustbench_oblong_puff.png",

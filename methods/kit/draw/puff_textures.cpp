@@ -21,28 +21,39 @@ double luminance(const glm::dvec3& colour) {
     return 0.2126 * colour.r + 0.7152 * colour.g + 0.0722 * colour.b;
 }
 
-/// One frame's texels, rows from the bottom: shading (mean 1) and relative optical depth (mean gaussianMean()).
-std::vector<glm::vec4> normalisedFrame(const pictures::Image& image, int frame, const std::string& file) {
+using Texels = std::vector<glm::vec4>;
+
+/// One frame's texels, premultiplied, rows from the bottom.
+Texels frameOf(const pictures::Image& image, int frame) {
     const int edge = image.height;
-    double depth = 0, light = 0;
-    std::vector<glm::vec4> texels;
+    Texels texels;
     for (int y = edge - 1; y >= 0; --y)
-        for (int x = 0; x < edge; ++x) {
-            const glm::vec4 texel = image.at(frame * edge + x, y);
-            texels.push_back(texel);
+        for (int x = 0; x < edge; ++x) texels.push_back(image.at(frame * edge + x, y));
+    return texels;
+}
+
+struct Sums {
+    double depth = 0, light = 0;
+    std::size_t texels = 0;
+
+    void add(const Texels& frame) {
+        for (const glm::vec4& texel : frame) {
             depth += static_cast<double>(texel.a);
             light += luminance(glm::vec3(texel));  // premultiplied, so already weighted
         }
-    if (depth <= 0 || light <= 0)
-        throw InputError("puff picture '" + file + "': frame " + std::to_string(frame) +
-                         " is empty, expected some colour and alpha");
-    const auto depthScale = static_cast<float>(gaussianMean() * static_cast<double>(texels.size()) / depth);
-    const auto shadeScale = static_cast<float>(depth / light);
-    for (glm::vec4& texel : texels) {
+        texels += frame.size();
+    }
+};
+
+/// From premultiplied texels to shading, of mean 1, and relative optical depth, of mean gaussianMean(); means of
+/// `sums`.
+void normalise(Texels& frame, const Sums& sums) {
+    const auto depthScale = static_cast<float>(gaussianMean() * static_cast<double>(sums.texels) / sums.depth);
+    const auto shadeScale = static_cast<float>(sums.depth / sums.light);
+    for (glm::vec4& texel : frame) {
         const glm::vec3 shade = texel.a > 0 ? glm::vec3(texel) / texel.a : glm::vec3(1 / shadeScale);
         texel = {shade * shadeScale, texel.a * depthScale};
     }
-    return texels;
 }
 
 std::uint8_t byteOf(float value, float scale) {
@@ -58,12 +69,21 @@ PuffTextures::PuffTextures(gpu::Device& device, const std::filesystem::path& fil
         throw InputError("puff picture '" + file.string() + "': got " + std::to_string(image.width) + "x" +
                          std::to_string(edge) + ", expected square frames side by side");
 
-    std::vector<std::vector<glm::vec4>> layers;
-    layers.reserve(static_cast<std::size_t>(image.width / edge));
-    for (int frame = 0; frame < image.width / edge; ++frame)
-        layers.push_back(normalisedFrame(image, frame, file.string()));
+    std::vector<Texels> layers;
+    std::vector<Sums> sums;
+    Sums sumOfAll;
+    for (int frame = 0; frame < image.width / edge; ++frame) {
+        layers.push_back(frameOf(image, frame));
+        sums.emplace_back().add(layers.back());
+        sumOfAll.add(layers.back());
+        if (sums.back().depth <= 0 || sums.back().light <= 0)
+            throw InputError("puff picture '" + file.string() + "': frame " + std::to_string(frame) +
+                             " is empty, expected some colour and alpha");
+    }
+    for (std::size_t i = 0; i < layers.size(); ++i) normalise(layers[i], frames == Frames::looped ? sumOfAll : sums[i]);
+    if (frames == Frames::looped) layers.push_back(layers.front());
     opticalDepthScale_ = shadeScale_ = 0;
-    for (const auto& layer : layers)
+    for (const Texels& layer : layers)
         for (const glm::vec4& texel : layer) {
             opticalDepthScale_ = std::max(opticalDepthScale_, texel.a);
             shadeScale_ = std::max({shadeScale_, texel.r, texel.g, texel.b});

@@ -36,14 +36,15 @@ inline constexpr Choices<AntiAliasing> antiAliasings{{"copies", AntiAliasing::co
 struct Look {
     Primitive primitive = Primitive::puff;
     Blending blending = Blending::alpha;
-    bool clamped = true;    ///< additive light: clamped to 1 in a separate buffer
-    float pixels = 0;       ///< width of points; 0: the particle's own size
-    bool round = false;     ///< points with a Gaussian profile
-    float seconds = 0;      ///< duration of the path of lines and copies; 0: one step
-    int steps = 1;          ///< steps of the path of curves
-    int pieces = 1;         ///< straight pieces of a curve in each step
-    std::string picture{};  ///< for sprites: a name in data/textures or a file; empty: a Gaussian
-    int copies = 1;         ///< copies of anti-aliased sprites
+    bool clamped = true;        ///< additive light: clamped to 1 in a separate buffer
+    float pixels = 0;           ///< width of points; 0: the particle's own size
+    bool round = false;         ///< points with a Gaussian profile
+    float seconds = 0;          ///< duration of the path of lines and copies; 0: one step
+    int steps = 1;              ///< steps of the path of curves
+    int pieces = 1;             ///< straight pieces of a curve in each step
+    std::string picture{};      ///< for sprites: a name in data/textures or a file; empty: a Gaussian
+    float framesPerSecond = 0;  ///< of a strip that is a video; 0: each sprite shows one picture of it
+    int copies = 1;             ///< copies of anti-aliased sprites
     AntiAliasing by = AntiAliasing::copies;
     bool fading = false;  ///< newer copies have more weight
     std::string mesh{};   ///< for objects: a name in data/scenes/meshes or a file
