@@ -41,6 +41,15 @@ class Watched : public TestMoment {
     PluginParticles method;
 };
 
+/// Mesa 25 draws meshes with last bits that differ from run to run, by up to 1e-8; all other primitives are equal.
+void expectSame(const pictures::Image& seen, const pictures::Image& expected, std::string_view render) {
+    const float allowed = render == "part = \"objects\"" ? 1e-7f : 0.0f;
+    float most = 0;
+    for (std::size_t i = 0; i < seen.pixels.size(); ++i)
+        most = std::max(most, glm::distance(seen.pixels[i], expected.pixels[i]));
+    EXPECT_LE(most, allowed) << render;
+}
+
 TEST(SeenParticles, CullingLeavesThePictureAsItIs) {
     for (const char* const render :
          {"part = \"puff\"", "part = \"sprites\", blend = \"additive\"", "part = \"points\", pixels = 9",
@@ -49,7 +58,7 @@ TEST(SeenParticles, CullingLeavesThePictureAsItIs) {
           "part = \"puff\", stereo = true, eyes_metres = 0.5"}) {
         Watched all(around(render), {}), culled(around(render), {true, 0});
         const pictures::Image expected = all.draw(all.method), seen = culled.draw(culled.method);
-        EXPECT_EQ(seen.pixels, expected.pixels) << render;
+        expectSame(seen, expected, render);
         EXPECT_GT(std::ranges::count_if(expected.pixels, [](const glm::vec4& p) { return p.r > 0; }), 50) << render;
         EXPECT_EQ(culled.method.stateHash(), all.method.stateHash()) << render;
         if (std::string_view(render) != "part = \"curves\"") {
@@ -58,7 +67,7 @@ TEST(SeenParticles, CullingLeavesThePictureAsItIs) {
         // Another view of the same state, as in a paused window.
         for (Watched* each : {&all, &culled})
             each->view.camera.target = each->view.camera.eye + glm::dvec3(1, 0.1, 0.4);
-        EXPECT_EQ(culled.draw(culled.method).pixels, all.draw(all.method).pixels) << render;
+        expectSame(culled.draw(culled.method), all.draw(all.method), render);
     }
     Watched all(around("part = \"puff\""), {}, true), culled(around("part = \"puff\""), {true, 0}, true);
     EXPECT_EQ(culled.draw(culled.method).pixels, all.draw(all.method).pixels) << "in sunlight";

@@ -27,7 +27,7 @@ inside() {
         set -e
         mount --rbind /dev "$0/dev"; mount --rbind /sys "$0/sys"
         mount --types proc proc "$0/proc"; mount --types tmpfs tmpfs "$0/tmp"
-        exec chroot "$0" /usr/bin/env --ignore-environment PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 TERM=dumb /bin/bash -euc "$1"
+        exec chroot "$0" /usr/bin/env --ignore-environment PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 TERM=dumb /bin/bash -euc "$1"
         ' "$root" "$1" < /dev/null
 }
 

@@ -10,21 +10,21 @@ cd "$here/../.."
 . "$here/bare.sh"
 
 number=0
-folder=/
+directory=/  # `folder` belongs to bare.sh
 while read -r instruction rest; do
     number=$((number + 1))
     case "$instruction" in
         '' | '#'*) ;;
         FROM) bare "$(sed --quiet 's/.*debian:\([a-z]*\)-slim$/\1/p' <<< "$rest")" build/elsewhere/container ;;
-        RUN) step "line-$number" inside "cd $folder && $rest" ;;
+        RUN) step "line-$number" inside "cd $directory && $rest" ;;
         COPY)
             read -r from to <<< "$rest"
             compgen -G "$from" > /dev/null || fail "$from is missing: run make portable first" 3
             # shellcheck disable=SC2086 # a pattern
             cp $from "$root$to"
             ;;
-        WORKDIR) folder="$rest" && mkdir --parents "$root$folder" ;;
-        ENTRYPOINT) step selfcheck inside "cd $folder && $(tr --delete '[],"' <<< "$rest") selfcheck --out selfcheck" ;;
+        WORKDIR) directory="$rest" && mkdir --parents "$root$directory" ;;
+        ENTRYPOINT) step selfcheck inside "cd $directory && $(tr --delete '[],"' <<< "$rest") selfcheck --out selfcheck" ;;
         *) fail "Containerfile:$number: unknown instruction '$instruction'" ;;
     esac
 done < Containerfile

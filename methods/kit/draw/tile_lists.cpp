@@ -71,7 +71,7 @@ void TileLists::reserve(std::uint32_t shapes) {
                          " shapes in tiles, allowed on this device: " + std::to_string(maximum));
     const std::size_t doubled = pairs_ ? 2 * std::size_t{pairs_->capacity} : minimumShapes;
     pairs_.reset();
-    pairs_.emplace(device_, std::max(shapes, static_cast<std::uint32_t>(std::min(doubled, maximum))));
+    pairs_ = std::make_unique<Pairs>(device_, std::max(shapes, static_cast<std::uint32_t>(std::min(doubled, maximum))));
 }
 
 void TileLists::build(const Shapes& shapes, int width, int height, const std::function<void(gpu::Program&)>& prepare) {

@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -80,7 +80,7 @@ class DUSTBENCH_API TileLists {
     gpu::Buffer number_;     ///< of shapes, if the CPU knows it
     gpu::Buffer pairCount_;  ///< the number of pairs, then the work groups of a dispatch over them
     gpu::Buffer ranges_;
-    std::optional<Pairs> pairs_;
+    std::unique_ptr<Pairs> pairs_;     ///< not std::optional, of which GCC 14 warns falsely
     std::uint32_t writtenNumber_ = 0;  ///< in `number_`
     int width_ = 0, height_ = 0, levels_ = 0;
     std::size_t tiles_ = 0;  ///< of all levels

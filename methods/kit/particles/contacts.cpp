@@ -56,9 +56,16 @@ struct Way {
 float meetNext(const Way& way, const MetSurfaces& surfaces, std::uint8_t* by) {
     const Ways one{1,         &way.from.x, &way.from.y,  &way.from.z,    &way.to.x,
                    &way.to.y, &way.to.z,   &way.seconds, way.leftSeconds};
-    float scratch, share;
-    meetAll(one, surfaces, &scratch, &share, by);
-    return share;
+    float first = Surface::none;
+    *by = 0;
+    std::uint8_t number = 0;
+    for (const MetSurface& met : surfaces.all()) {
+        float share;
+        met.surface->meet(one, &share);
+        if (share < first) first = share, *by = number;
+        ++number;
+    }
+    return first;
 }
 
 /// Moves to the contact at `share` of the path, where the rest of the path starts.

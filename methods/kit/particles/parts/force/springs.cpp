@@ -103,7 +103,7 @@ void PositionStep::begin(const SpringNumbers& numbers, const LatticeLinks& links
 void PositionStep::meet(const MetSurfaces& surfaces, double h, float leftSeconds, ParticleStore& store,
                         const Fates& fates) {
     parallel::forEachBlock(points_.size(), chunkSize, [&](std::size_t first, std::size_t count) {
-        WayBegins begins;
+        WayBegins begins{};
         std::array<std::array<float, chunkSize>, 6> moved;
         Chunk chunk;
         chunk.count = count;
