@@ -10,8 +10,6 @@
 
 #include "bench/world/control_source.h"
 #include "bench/world/dust_series.h"
-#include "bench/world/gpu_dust/gpu_dust.h"
-#include "bench/world/gpu_dust/step_values.h"
 #include "bench/world/scene_file.h"
 #include "bench/world/vehicle_dynamics.h"
 #include "methods/contract/choices.h"
@@ -21,6 +19,8 @@
 #include "methods/kit/light/lit_puffs.h"
 #include "methods/kit/particles/part_list.h"
 #include "methods/kit/particles/particle_system.h"
+#include "methods/kit/particles_gl/gpu_system.h"
+#include "methods/kit/particles_gl/step_values.h"
 
 namespace dustbench::world {
 namespace {
@@ -152,10 +152,10 @@ struct World::State {
     Controls controls{};
     SceneState now{};
     CameraLag lag{};
-    std::optional<CameraPath> path{};    ///< replaces `camera`
-    std::unique_ptr<ShownDust> given{};  ///< replaces `dust`
-    std::unique_ptr<GpuDust> gpuDust{};  ///< replaces `dust`, with its parts
-    GpuPuffs gpuPuffs{};                 ///< of `gpuDust`
+    std::optional<CameraPath> path{};                 ///< replaces `camera`
+    std::unique_ptr<ShownDust> given{};               ///< replaces `dust`
+    std::unique_ptr<particles::GpuSystem> gpuDust{};  ///< replaces `dust`, with its parts
+    GpuPuffs gpuPuffs{};                              ///< of `gpuDust`
     light::LitPuffs litDust{};
     std::optional<Puffs> lit{};  ///< for this step and camera, once requested
 
@@ -246,13 +246,13 @@ bool World::hasGivenDust() const {
 std::string World::whyDustStaysOnCpu() const {
     if (state_->given) return "dust from a file";
     if (state_->file.scene.lights.onDust) return "light=sun";
-    return partWithoutShader(state_->dust.parts());
+    return particles::partWithoutShader(state_->dust.parts());
 }
 void World::moveDustTo(gpu::Device& device) {
     State& s = *state_;
     if (const std::string why = whyDustStaysOnCpu(); !why.empty())
         throw InputError("dust_on: got gpu, but " + why + " has no shader, allowed: cpu");
-    s.gpuDust = std::make_unique<GpuDust>(device, s.dust.parts(), s.seed);
+    s.gpuDust = std::make_unique<particles::GpuSystem>(device, s.dust.parts(), s.seed);
     s.gpuPuffs = s.gpuDust->buffers();
 }
 const GpuPuffs* World::gpuDust() const {

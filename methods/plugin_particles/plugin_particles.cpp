@@ -9,6 +9,7 @@
 #include "methods/kit/particles/part_list.h"
 #include "methods/kit/particles/particle_system.h"
 #include "methods/kit/particles/shading_part.h"
+#include "methods/kit/particles_gl/step_values.h"
 
 namespace dustbench::plugin_particles {
 namespace {
@@ -105,8 +106,8 @@ void requirePossible(const std::vector<Change>& changes, const std::vector<parti
 }  // namespace
 
 PluginParticles::PluginParticles(std::vector<particles::NamedParts> systems, std::vector<Change> changes,
-                                 const Sight& sight)
-    : parts_(std::move(systems)), changes_(std::move(changes)), sight_(sight) {
+                                 const Sight& sight, SystemsOn processor)
+    : parts_(std::move(systems)), changes_(std::move(changes)), sight_(sight), processor_(processor) {
     requirePossible(changes_, parts_);
 }
 
@@ -131,6 +132,26 @@ void PluginParticles::prepare(const scene::Scene& scene, const RunSetup& setup, 
     parts_.clear();
     if (scene.lights.onDust) sunlight_ = std::make_unique<Sunlight>(scene);
     for (System& system : systems_) makePicture(system);
+    if (processor_ == SystemsOn::gpu) moveToGpu(setup.seed);
+}
+
+void PluginParticles::moveToGpu(std::uint64_t seed) {
+    const auto refuse = [](const std::string& reason) {
+        throw InputError("parameter systems_on: got gpu with " + reason + ", allowed: cpu");
+    };
+    if (!changes_.empty()) refuse("changes during the run");
+    if (sight_.culls || sight_.detailPixels > 0) refuse("culling or detail_pixels");
+    if (sunlight_) refuse("light=sun");
+    for (std::size_t i = 0; i < systems_.size(); ++i) {
+        System& system = systems_[i];
+        const particles::PartList& parts = system.particles.parts();
+        const std::string named = " of the system '" + system.name + "'";
+        if (parts.storage() != particles::Storage::array) refuse("the storage" + named);
+        if (const std::string part = particles::partWithoutShader(parts); !part.empty())
+            refuse(part + named + ", which has no shader");
+        if (!drawsFromGpu(system.picture->look())) refuse("the part render '" + parts.render()->name() + "'" + named);
+        system.onGpu = std::make_unique<particles::GpuSystem>(*device_, parts, seedOf(i, seed));
+    }
 }
 
 /// Keeps the present picture if its look is unchanged.
@@ -201,6 +222,8 @@ Puffs PluginParticles::inLight(const System& system, const Puffs& puffs, const F
 }
 
 void PluginParticles::uploadSeen(System& system, const Frame& frame) {
+    if (system.onGpu)
+        return system.picture->gather(system.onGpu->buffers(), glm::vec3(frame.view.camera.eye), frame.clock);
     const auto stepSeconds = static_cast<float>(frame.stepSeconds);
     Puffs puffs;
     {
@@ -225,12 +248,17 @@ void PluginParticles::update(const Frame& frame) {
     carryEvents();
     {
         const auto timing = frame.clock.measure(Stage::simulate);
-        for (System& system : systems_)
-            system.particles.update({.scene = *scene_,
-                                     .state = frame.state,
-                                     .stepSeconds = frame.stepSeconds,
-                                     .fixedCount = system.fixedCount,
-                                     .view = &frame.view});
+        for (System& system : systems_) {
+            const particles::Surroundings around{.scene = *scene_,
+                                                 .state = frame.state,
+                                                 .stepSeconds = frame.stepSeconds,
+                                                 .fixedCount = system.fixedCount,
+                                                 .view = &frame.view};
+            if (system.onGpu)
+                system.onGpu->update(around);
+            else
+                system.particles.update(around);
+        }
         now_ = frame.state;
         findLights();
         shine();
@@ -255,14 +283,19 @@ void PluginParticles::draw(const Frame& frame, gpu::Layer& layer) {
 void PluginParticles::volume(const Frame& frame, VolumeVisitor& visitor) const {
     for (const System& system : systems_) {
         light::LitPuffs lit;
-        visitor.puffs(inLight(system, system.particles.store(), frame, lit));
+        if (system.onGpu)
+            visitor.puffs(system.onGpu->readBack());
+        else
+            visitor.puffs(inLight(system, system.particles.store(), frame, lit));
     }
 }
 
 void PluginParticles::report(const Frame&, Facts& facts) const {
     std::int64_t all = 0;
     for (std::size_t i = 0; i < systems_.size(); ++i) {
-        const auto alive = static_cast<std::int64_t>(systems_[i].particles.store().size());
+        const System& system = systems_[i];
+        const auto alive =
+            static_cast<std::int64_t>(system.onGpu ? system.onGpu->count() : system.particles.store().size());
         if (i < countedSystems) facts.set(aliveFact(i), alive);
         all += alive;
     }
@@ -275,7 +308,8 @@ void PluginParticles::report(const Frame&, Facts& facts) const {
 MemoryReport PluginParticles::memory() const {
     MemoryReport report;
     for (const System& system : systems_)
-        for (const MemoryReport& part : {system.particles.memory(), system.picture->memory()})
+        for (const MemoryReport& part :
+             {system.onGpu ? system.onGpu->memory() : system.particles.memory(), system.picture->memory()})
             for (const MemoryUse& use : part)
                 report.push_back({system.name + ": " + use.structure, use.cpuBytes, use.gpuBytes});
     std::size_t seen = 0;
@@ -291,14 +325,15 @@ MemoryReport PluginParticles::memory() const {
 
 std::int64_t PluginParticles::primitives() const {
     std::size_t sum = 0;
-    for (const System& system : systems_) sum += system.picture->count();
+    for (const System& system : systems_) sum += system.onGpu ? system.onGpu->count() : system.picture->count();
     return static_cast<std::int64_t>(sum);
 }
 
 std::optional<std::uint64_t> PluginParticles::stateHash() const {
     std::vector<std::uint64_t> hashes;
     hashes.reserve(systems_.size());
-    for (const System& system : systems_) hashes.push_back(system.particles.stateHash());
+    for (const System& system : systems_)
+        hashes.push_back(system.onGpu ? system.onGpu->readBack().hash() : system.particles.stateHash());
     return particles::stateHash(now_, hashes);
 }
 
@@ -323,6 +358,9 @@ MethodInfo describe() {
     info.parameters.choice("storage", "file", storageWords(),
                            "how systems keep their particles; array: in columns; list: in a linked list; pool: in a "
                            "linked list that keeps the nodes of the dead; file: as the file says, or array");
+    info.parameters.choice(
+        "systems_on", SystemsOn::cpu, systemsOnWords,
+        "processor that steps and draws the systems; gpu: in compute shaders, for parts that have one");
     info.parameters.changes("at",
                             "changes to parts and their parameters during the run: 2.5s:velocity.speed=8, "
                             "1s:velocity.part=cone; with several systems: 2s:smoke.velocity.speed=8");
@@ -344,7 +382,8 @@ MethodInfo describe() {
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<PluginParticles>(
             systemsOf(values), values.changes("at"),
-            Sight{values.boolean("culling"), static_cast<float>(values.real("detail_pixels"))});
+            Sight{values.boolean("culling"), static_cast<float>(values.real("detail_pixels"))},
+            values.choice("systems_on", systemsOnWords));
     };
     return info;
 }

@@ -13,9 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "methods/contract/choices.h"
 #include "methods/contract/method.h"
 #include "methods/kit/particles/part_toml.h"
 #include "methods/kit/particles/particle_system.h"
+#include "methods/kit/particles_gl/gpu_system.h"
 #include "methods/plugin_particles/mark_pass.h"
 #include "methods/plugin_particles/seen_particles.h"
 #include "methods/plugin_particles/sunlight.h"
@@ -23,15 +25,19 @@
 
 namespace dustbench::plugin_particles {
 
+/// The processor that steps the systems.
+enum class SystemsOn { cpu, gpu };
+inline constexpr Choices<SystemsOn> systemsOnWords{{"cpu", SystemsOn::cpu}, {"gpu", SystemsOn::gpu}};
+
 class PluginParticles final : public Method {
  public:
     /// Takes one or more systems. `changes`: sorted by time. `sight`: which particles are drawn. Throws InputError if a
     /// change will be impossible at its time, or an event names a system that does not exist.
     explicit PluginParticles(std::vector<particles::NamedParts> systems, std::vector<Change> changes = {},
-                             const Sight& sight = {});
+                             const Sight& sight = {}, SystemsOn processor = SystemsOn::cpu);
 
     /// Throws InputError if fewer particles are requested than there are systems, or any number with events that start
-    /// particles.
+    /// particles; on the GPU, if a part has no shader or the systems are used in a way that needs them on the CPU.
     void prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) override;
     void update(const Frame& frame) override;
     void draw(const Frame& frame, gpu::Layer& layer) override;
@@ -55,10 +61,12 @@ class PluginParticles final : public Method {
         std::string shownAs{};  ///< the render part of `picture`
         std::unique_ptr<SystemPicture> picture{};
         std::unique_ptr<SeenParticles> seen = std::make_unique<SeenParticles>();
-        light::LitPuffs lit{};              ///< colours in sunlight
-        std::unique_ptr<MarkPass> marks{};  ///< null: no part is drawn
+        light::LitPuffs lit{};                          ///< colours in sunlight
+        std::unique_ptr<MarkPass> marks{};              ///< null: no part is drawn
+        std::unique_ptr<particles::GpuSystem> onGpu{};  ///< of SystemsOn::gpu; replaces `particles`, with its parts
     };
 
+    void moveToGpu(std::uint64_t seed);
     void applyChanges(const Frame& frame);
     void carryEvents();
     void makePicture(System& system);
@@ -74,6 +82,7 @@ class PluginParticles final : public Method {
     std::vector<Change> changes_;
     std::size_t applied_ = 0;  ///< number of changes applied
     Sight sight_;
+    SystemsOn processor_;
     scene::View uploadedFor_;
     std::vector<System> systems_;
     const scene::Scene* scene_ = nullptr;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 
 #include "methods/kit/draw/billboards.h"
 #include "methods/kit/draw/layer_blend.h"
@@ -128,6 +129,10 @@ class SpritePass final : public ShapePass {
     }
 
     void upload(const Drawn& drawn) override;
+    void gather(const GpuPuffs& puffs, const gpu::Buffer* order) override {
+        colourOfAll_ = puffs.colourOfAll;
+        billboards_.gather(puffs, order);
+    }
     void draw(const scene::View& view, const gpu::Layer& layer) override;
     [[nodiscard]] std::size_t count() const override {
         return billboards_.count() * static_cast<std::size_t>(look_.copies);
@@ -303,6 +308,14 @@ void SurfacePass::upload(const Drawn& drawn) {
 }
 
 }  // namespace
+
+void ShapePass::gather(const GpuPuffs&, const gpu::Buffer*) {
+    throw std::logic_error("ShapePass: this look cannot be drawn from GPU buffers");
+}
+
+bool drawsFromGpu(const particles::Look& look) {
+    return (look.primitive == Primitive::puff || look.primitive == Primitive::sprites) && look.picture.empty();
+}
 
 std::unique_ptr<ShapePass> makePass(gpu::Device& device, const particles::Look& look, const scene::Lights& lights) {
     switch (look.primitive) {

@@ -11,6 +11,7 @@
 #include "methods/contract/scene.h"
 #include "methods/contract/view.h"
 #include "methods/contract/volume.h"
+#include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/layer.h"
 #include "methods/kit/parallel/for_each_block.h"
 #include "methods/kit/particles/render_part.h"
@@ -35,6 +36,9 @@ class ShapePass {
  public:
     virtual ~ShapePass() = default;
     virtual void upload(const Drawn& drawn) = 0;
+    /// The same for particles on the GPU, in their order or that of the indices in `order`; only for a look that
+    /// `drawsFromGpu`.
+    virtual void gather(const GpuPuffs& puffs, const gpu::Buffer* order);
     /// Draws the last upload into `layer`; may be called repeatedly.
     virtual void draw(const scene::View& view, const gpu::Layer& layer) = 0;
     /// Number of primitives that a `draw` submits.
@@ -43,6 +47,9 @@ class ShapePass {
     /// Memory of the data that the pass keeps between uploads.
     [[nodiscard]] virtual std::size_t cpuBytes() const { return 0; }
 };
+
+/// Whether particles of this look can be drawn from GPU buffers: puffs, and sprites without a picture.
+[[nodiscard]] bool drawsFromGpu(const particles::Look& look);
 
 /// Throws InputError if the look's picture or mesh cannot be read.
 [[nodiscard]] std::unique_ptr<ShapePass> makePass(gpu::Device& device, const particles::Look& look,

@@ -12,7 +12,8 @@ scene::View seenBy(draw::Eye eye, const scene::View& view, float eyesMetres) {
 }
 
 SystemPicture::SystemPicture(gpu::Device& device, const particles::Look& look, const scene::Lights& lights)
-    : look_(look),
+    : device_(device),
+      look_(look),
       sort_(ledger_),
       pass_(makePass(device, look, lights)),
       light_(device),
@@ -30,6 +31,17 @@ void SystemPicture::upload(const Moment& moment, const StageClock& clock) {
     }
     const auto timing = clock.measure(Stage::upload);
     pass_->upload({puffs, order, moment.stepSeconds});
+}
+
+void SystemPicture::gather(const GpuPuffs& puffs, const glm::vec3& eye, const StageClock& clock) {
+    const gpu::Buffer* order = nullptr;
+    if (!isAdditive()) {
+        const auto timing = clock.measure(Stage::sort);
+        if (!gpuOrder_) gpuOrder_.emplace(device_);
+        order = &gpuOrder_->farToNear(puffs, eye);
+    }
+    const auto timing = clock.measure(Stage::upload);
+    pass_->gather(puffs, order);
 }
 
 void SystemPicture::draw(const scene::View& view, const gpu::Layer& layer) {
@@ -54,6 +66,7 @@ MemoryReport SystemPicture::memory() const {
     MemoryReport report;
     for (const auto& [structure, bytes] : ledger_.entries()) report.push_back({structure, bytes, 0});
     report.push_back({"primitives", 0, pass_->gpuBytes()});
+    if (gpuOrder_) report.push_back({"depth order", 0, gpuOrder_->bytes()});
     if (pass_->cpuBytes() > 0) report.push_back({"last positions", pass_->cpuBytes(), 0});
     const std::size_t buffers = light_.gpuBytes() + oneEye_.gpuBytes() + bothEyes_.gpuBytes();
     if (buffers > 0) report.push_back({"own buffers", 0, buffers});

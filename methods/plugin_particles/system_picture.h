@@ -12,6 +12,7 @@
 #include "methods/contract/memory_report.h"
 #include "methods/contract/stage_clock.h"
 #include "methods/kit/draw/depth_sort.h"
+#include "methods/kit/draw/gpu_depth_order.h"
 #include "methods/kit/draw/layer_blend.h"
 #include "methods/plugin_particles/shape_pass.h"
 
@@ -32,6 +33,8 @@ class SystemPicture {
     };
     /// Sorts, if needed, and uploads the particles.
     void upload(const Moment& moment, const StageClock& clock);
+    /// The same for particles on the GPU.
+    void gather(const GpuPuffs& puffs, const glm::vec3& eye, const StageClock& clock);
     /// Draws the last upload; may be called repeatedly.
     void draw(const scene::View& view, const gpu::Layer& layer);
 
@@ -44,9 +47,11 @@ class SystemPicture {
     [[nodiscard]] bool isAdditive() const { return look_.blending == particles::Blending::additive; }
     void drawForEye(const scene::View& view, const gpu::Layer& layer);
 
+    gpu::Device& device_;
     particles::Look look_;
     MemoryLedger ledger_;
     draw::DepthSort sort_;
+    std::optional<draw::GpuDepthOrder> gpuOrder_;  ///< made for the first particles on the GPU
     std::unique_ptr<ShapePass> pass_;
     std::optional<draw::LayerBlend> blend_;
     draw::OwnLayer light_, oneEye_, bothEyes_;

@@ -1,4 +1,4 @@
-#include "bench/world/gpu_dust/gpu_dust.h"
+#include "methods/kit/particles_gl/gpu_system.h"
 
 #include <fmt/format.h>
 
@@ -6,23 +6,23 @@
 #include <cmath>
 #include <deque>
 #include <map>
+#include <memory>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 #include <vector>
 
-#include "bench/world/gpu_dust/step_values.h"
-#include "bench_gpu_dust_shaders.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/program.h"
 #include "methods/kit/gpu/sort/scan.h"
 #include "methods/kit/particles/step.h"
+#include "methods/kit/particles_gl/step_values.h"
+#include "particles_gl_shaders.h"
 
-namespace dustbench::world {
+namespace dustbench::particles {
 namespace {
 
-namespace shaders = bench_gpu_dust_shaders;
+namespace shaders = particles_gl_shaders;
 
 constexpr std::size_t wordBytes = sizeof(std::uint32_t);
 constexpr std::uint32_t groupThreads = 256, leastCapacity = 4096;
@@ -110,8 +110,8 @@ gpu::Program dustProgram(gpu::Device& device, const gpu::ShaderFile& file, bool 
 
 }  // namespace
 
-struct GpuDust::State {
-    State(gpu::Device& onDevice, const particles::PartList& list, std::uint64_t seedOfAll);
+struct GpuSystem::State {
+    State(gpu::Device& onDevice, const PartList& list, std::uint64_t seedOfAll);
 
     void makeRoom(std::uint64_t particles);
     void giveHeights(const scene::Terrain& terrain);
@@ -119,22 +119,22 @@ struct GpuDust::State {
     void run(const StepValues& values);
 
     gpu::Device& device;
-    const particles::PartList& parts;
+    const PartList& parts;
     std::uint64_t seed;
     bool coloured;
     std::uint64_t nextSerial = 0;
-    particles::EmitterTracker tracker;
+    EmitterTracker tracker;
     BirthLog births;
     glm::vec3 colourOfAll{1};
     MemoryLedger gpuLedger, ledger;
-    std::optional<Room> room;
+    std::unique_ptr<Room> room;  ///< not std::optional, of which GCC 14 warns falsely
     gpu::Buffer step, tally, deaths, moved, heights;
     gpu::Program advance, count, bear, markTail, bury;
-    particles::ParticleStore store{ledger};
+    ParticleStore store{ledger};
     bool isRead = false;  ///< `store` has this step's particles
 };
 
-GpuDust::State::State(gpu::Device& onDevice, const particles::PartList& list, std::uint64_t seedOfAll)
+GpuSystem::State::State(gpu::Device& onDevice, const PartList& list, std::uint64_t seedOfAll)
     : device(onDevice), parts(list), seed(seedOfAll), coloured(ownColours(list)), births(longestLifeSeconds(list)) {
     const gpu::LedgerScope booked(device, gpuLedger);
     step = gpu::Buffer(device, "dust: step", sizeof(StepValues));
@@ -150,27 +150,27 @@ GpuDust::State::State(gpu::Device& onDevice, const particles::PartList& list, st
     makeRoom(leastCapacity);
 }
 
-void GpuDust::State::makeRoom(std::uint64_t particles) {
+void GpuSystem::State::makeRoom(std::uint64_t particles) {
     if (room && particles <= room->capacity) return;
     const std::uint64_t capacity = std::max(particles, room ? 2 * std::uint64_t{room->capacity} : 0);
     const std::uint64_t allowed = device.maximumStorageBytes() / (3 * wordBytes);
     if (particles > allowed)
-        throw InputError(fmt::format("dust on the GPU: got {} particles, allowed: {} (the largest buffer of {})",
+        throw InputError(fmt::format("particles on the GPU: got {} particles, allowed: {} (the largest buffer of {})",
                                      particles, allowed, device.info().renderer));
     const gpu::LedgerScope booked(device, gpuLedger);
-    std::optional<Room> before = std::exchange(room, std::nullopt);
-    room.emplace(device, static_cast<std::uint32_t>(std::min(capacity, allowed)), coloured);
+    const std::unique_ptr<Room> before = std::exchange(room, nullptr);
+    room = std::make_unique<Room>(device, static_cast<std::uint32_t>(std::min(capacity, allowed)), coloured);
     if (before) room->copyColumnsFrom(*before);
 }
 
-void GpuDust::State::giveHeights(const scene::Terrain& terrain) {
+void GpuSystem::State::giveHeights(const scene::Terrain& terrain) {
     if (heights.bytes() > 0) return;
     const gpu::LedgerScope booked(device, gpuLedger);
     const std::vector<float> none{0};
     heights = gpu::Buffer(device, "dust: terrain", std::span<const float>(terrain.isFlat() ? none : terrain.heights()));
 }
 
-void GpuDust::State::bindColumns() const {
+void GpuSystem::State::bindColumns() const {
     step.bindUniform(0);
     room->position.bindStorage(1);
     room->velocity.bindStorage(2);
@@ -182,7 +182,7 @@ void GpuDust::State::bindColumns() const {
     heights.bindStorage(8);
 }
 
-void GpuDust::State::run(const StepValues& values) {
+void GpuSystem::State::run(const StepValues& values) {
     step.write(std::span(&values, 1));
     Room& r = *room;
     bindColumns();
@@ -211,30 +211,30 @@ void GpuDust::State::run(const StepValues& values) {
     bury.dispatchIndirect(tally, burialGroupsAt);
 }
 
-GpuDust::GpuDust(gpu::Device& device, const particles::PartList& parts, std::uint64_t seed) {
+GpuSystem::GpuSystem(gpu::Device& device, const PartList& parts, std::uint64_t seed) {
     if (const std::string part = partWithoutShader(parts); !part.empty())
-        throw InputError("dust on the GPU: " + part + " has no shader, allowed: dust_on=cpu");
+        throw InputError("particles on the GPU: " + part + " has no shader");
     state_ = std::make_unique<State>(device, parts, seed);
 }
 
-GpuDust::~GpuDust() = default;
+GpuSystem::~GpuSystem() = default;
 
-void GpuDust::update(const particles::Surroundings& surroundings) {
-    if (!(surroundings.stepSeconds > 0)) throw std::invalid_argument("GpuDust: a step must be longer than 0 s");
-    if (surroundings.particlesPerPuff != 1) throw std::invalid_argument("GpuDust: only one particle for each puff");
+void GpuSystem::update(const Surroundings& surroundings) {
+    if (!(surroundings.stepSeconds > 0)) throw std::invalid_argument("GpuSystem: a step must be longer than 0 s");
+    if (surroundings.particlesPerPuff != 1) throw std::invalid_argument("GpuSystem: only one particle for each puff");
     State& s = *state_;
     s.isRead = false;
     const double meanLife = *s.parts.lifetime().meanLifetimeSeconds();
-    const particles::Step step{surroundings.scene,
-                               surroundings.state,
-                               surroundings.stepSeconds,
-                               s.seed,
-                               static_cast<double>(surroundings.fixedCount) / meanLife,
-                               s.tracker.follow(surroundings.scene, surroundings.state, surroundings.stepSeconds),
-                               1};
+    const Step step{surroundings.scene,
+                    surroundings.state,
+                    surroundings.stepSeconds,
+                    s.seed,
+                    static_cast<double>(surroundings.fixedCount) / meanLife,
+                    s.tracker.follow(surroundings.scene, surroundings.state, surroundings.stepSeconds),
+                    1};
     if (const auto colour = s.parts.colour()->colourOfAll(step)) s.colourOfAll = *colour;
     const auto emitters = s.parts.position()->emitters(step);
-    const particles::Births births = emitters.empty() ? particles::Births{} : s.parts.emission()->births(step);
+    const Births births = emitters.empty() ? Births{} : s.parts.emission()->births(step);
     s.births.add(static_cast<std::uint64_t>(births.count), surroundings.stepSeconds);
     // A fixed number of particles lives as long as their mean life, some up to the longest.
     s.makeRoom(std::max(s.births.bound(), static_cast<std::uint64_t>(static_cast<double>(surroundings.fixedCount) *
@@ -244,7 +244,7 @@ void GpuDust::update(const particles::Surroundings& surroundings) {
     s.nextSerial += static_cast<std::uint64_t>(births.count);
 }
 
-GpuPuffs GpuDust::buffers() const {
+GpuPuffs GpuSystem::buffers() const {
     const State& s = *state_;
     const Room& r = *s.room;
     return {.position = &r.position,
@@ -258,12 +258,17 @@ GpuPuffs GpuDust::buffers() const {
             .colourOfAll = s.colourOfAll};
 }
 
-const particles::ParticleStore& GpuDust::readBack() {
+std::uint32_t GpuSystem::count() const {
+    std::uint32_t count = 0;
+    state_->tally.read(std::span(&count, 1));
+    return count;
+}
+
+const ParticleStore& GpuSystem::readBack() {
     State& s = *state_;
     if (s.isRead) return s.store;
-    std::uint32_t count = 0;
-    s.tally.read(std::span(&count, 1));
-    particles::ParticleStore& store = s.store;
+    const std::uint32_t count = this->count();
+    ParticleStore& store = s.store;
     store.keepOneColour(!s.coloured);
     store.colourOfAll = s.colourOfAll;
     store.resize(count);
@@ -288,11 +293,11 @@ const particles::ParticleStore& GpuDust::readBack() {
     return store;
 }
 
-MemoryReport GpuDust::memory() const {
+MemoryReport GpuSystem::memory() const {
     MemoryReport report;
     for (const auto& [structure, bytes] : state_->ledger.entries()) report.push_back({structure, bytes, 0});
     for (const auto& [structure, bytes] : state_->gpuLedger.entries()) report.push_back({structure, 0, bytes});
     return report;
 }
 
-}  // namespace dustbench::world
+}  // namespace dustbench::particles

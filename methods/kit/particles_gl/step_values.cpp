@@ -1,4 +1,4 @@
-#include "bench/world/gpu_dust/step_values.h"
+#include "methods/kit/particles_gl/step_values.h"
 
 #include <algorithm>
 #include <array>
@@ -12,12 +12,8 @@
 #include "methods/kit/maths/turbulence.h"
 #include "methods/kit/particles/part_parameters.h"
 
-namespace dustbench::world {
+namespace dustbench::particles {
 namespace {
-
-using particles::Part;
-using particles::PartKind;
-using particles::PartList;
 
 struct ShadedPart {
     PartKind kind;
@@ -28,6 +24,7 @@ constexpr std::array shadedParts{
     ShadedPart{PartKind::position, "point"}, ShadedPart{PartKind::position, "disc"},
     ShadedPart{PartKind::velocity, "cone"},  ShadedPart{PartKind::colour, "constant"},
     ShadedPart{PartKind::colour, "bands"},   ShadedPart{PartKind::size, "constant"},
+    ShadedPart{PartKind::colour, "linear"},  ShadedPart{PartKind::colour, "bezier"},
     ShadedPart{PartKind::size, "linear"},    ShadedPart{PartKind::life, "lifetime"},
     ShadedPart{PartKind::force, "wind"},     ShadedPart{PartKind::force, "gravity"},
     ShadedPart{PartKind::force, "constant"}, ShadedPart{PartKind::force, "drag"},
@@ -53,7 +50,7 @@ glm::uvec2 halves(std::uint64_t value) {
     return {static_cast<std::uint32_t>(value), static_cast<std::uint32_t>(value >> 32)};
 }
 
-void setLook(StepValues& values, const PartList& parts, const particles::Step& step) {
+void setLook(StepValues& values, const PartList& parts, const Step& step) {
     const Part& size = *parts.size();
     if (size.name() == "linear")
         values.radius.x = number(size, "start_metres"),
@@ -72,21 +69,29 @@ void setLook(StepValues& values, const PartList& parts, const particles::Step& s
     } else {
         values.opacity = {start, end - start, 0, 0};
     }
+    const auto own = [&](const char* name) { return glm::vec3(vectorOf(colour.values(), name, colourAxes)); };
+    if (colour.name() == "linear" || colour.name() == "bezier") {
+        values.life.w = 1;
+        const glm::vec3 first = own("start"), last = own("end");
+        for (int i = 0; i < 3; ++i) {
+            values.colourCurves[i] = {first[i], last[i] - first[i], 0, 0};
+            if (colour.name() == "linear") continue;
+            const auto curve = maths::bezierPolynomial(first[i], own("early")[i], own("late")[i], last[i]);
+            values.colourCurves[i] = {curve.c0, curve.c1, curve.c2, curve.c3};
+        }
+    }
     if (colour.name() != "bands") return;
-    const auto own = [&](const char* name) {
-        return glm::vec3(particles::vectorOf(colour.values(), name, particles::colourAxes));
-    };
     values.colours[0] = withW(own("first"), number(colour, "share"));
     values.colours[1] = withW(own("second"));
     values.numbers.z = static_cast<std::uint32_t>(colour.values().integer("births"));
 }
 
 void setCone(StepValues& values, const Part& velocity) {
-    const glm::vec3 axis = particles::directionOf(velocity.values(), "direction");
+    const glm::vec3 axis = directionOf(velocity.values(), "direction");
     const maths::Tangents frame = maths::tangentsOf(axis);
     const float turns = static_cast<float>(velocity.values().real("half_angle_degrees") / 360);
     const float half = maths::sineOfTurns(turns / 2);
-    const bool printed = velocity.values().choice("mode", particles::samplingModes) == maths::SamplingMode::paper;
+    const bool printed = velocity.values().choice("mode", samplingModes) == maths::SamplingMode::paper;
     values.cone = {2.0f * half * half, turns, printed ? 1.0f : 0.0f, number(velocity, "inherit")};
     values.coneFrame[0] = withW(frame.first);
     values.coneFrame[1] = withW(frame.second);
@@ -96,17 +101,17 @@ void setCone(StepValues& values, const Part& velocity) {
     values.source.w = number(velocity, "variation");
 }
 
-void setEmitters(StepValues& values, const Part& position, std::span<const particles::Emitter> emitters) {
-    if (emitters.size() > maximumEmitters) throw std::logic_error("dust on the GPU: too many emitters");
+void setEmitters(StepValues& values, const Part& position, std::span<const Emitter> emitters) {
+    if (emitters.size() > maximumEmitters) throw std::logic_error("particles on the GPU: too many emitters");
     values.numbers.y = static_cast<std::uint32_t>(emitters.size());
     const bool isDisc = position.name() == "disc";
     values.source.x = isDisc ? number(position, "radius_metres") : -1.0f;
     maths::Tangents axes{{1, 0, 0}, {0, 0, 1}};  // of a horizontal disc
     if (isDisc)
-        if (const glm::vec3 normal = particles::directionOf(position.values(), "normal"); normal != glm::vec3(0, 1, 0))
+        if (const glm::vec3 normal = directionOf(position.values(), "normal"); normal != glm::vec3(0, 1, 0))
             axes = maths::tangentsOf(normal);
     for (std::size_t e = 0; e < emitters.size(); ++e) {
-        const particles::Emitter& emitter = emitters[e];
+        const Emitter& emitter = emitters[e];
         values.from[e] = withW(emitter.from);
         values.to[e] = withW(emitter.to);
         values.velocityFrom[e] = withW(emitter.velocityFrom);
@@ -119,11 +124,11 @@ void setEmitters(StepValues& values, const Part& position, std::span<const parti
     }
 }
 
-void setWind(glm::vec4* values, const Part& part, const particles::Step& step) {
+void setWind(glm::vec4* values, const Part& part, const Step& step) {
     const glm::dvec3 wind = part.values().real("factor") * glm::dvec3(step.scene.wind);
-    const maths::GustField gusts = maths::gustField(part.values().real("gust_speed"), part.values().real("gust_metres"),
-                                                    part.values().real("gust_seconds"), wind, step.state.timeSeconds,
-                                                    step.seed, particles::windStream);
+    const maths::GustField gusts =
+        maths::gustField(part.values().real("gust_speed"), part.values().real("gust_metres"),
+                         part.values().real("gust_seconds"), wind, step.state.timeSeconds, step.seed, windStream);
     values[0] = {1, wind.x, wind.y, wind.z};
     for (int j = 0; j < 4; ++j) {
         const auto k = static_cast<std::size_t>(j);
@@ -134,13 +139,13 @@ void setWind(glm::vec4* values, const Part& part, const particles::Step& step) {
 }
 
 /// `values[0].x` is the kind of force, as in parts.glsl.
-void setForce(glm::vec4* values, const Part& part, const particles::Step& step) {
+void setForce(glm::vec4* values, const Part& part, const Step& step) {
     if (part.name() == "wind") return setWind(values, part, step);
     if (part.name() == "gravity") values[0] = {2, number(part, "acceleration"), 0, 0};
     if (part.name() == "constant") {
-        const glm::dvec3 force = particles::vectorOf(part.values(), "force", particles::spaceAxes);
+        const glm::dvec3 force = vectorOf(part.values(), "force", spaceAxes);
         const double mass = part.values().real("mass_kilograms");
-        const bool printed = part.values().choice("mode", particles::samplingModes) == maths::SamplingMode::paper;
+        const bool printed = part.values().choice("mode", samplingModes) == maths::SamplingMode::paper;
         const glm::vec3 acceleration = printed ? force * mass : force / mass;
         values[0] = {3, acceleration.x, acceleration.y, acceleration.z};
     }
@@ -153,17 +158,20 @@ void setForce(glm::vec4* values, const Part& part, const particles::Step& step) 
 
 std::string partWithoutShader(const PartList& parts) {
     for (const Part* part : parts.all())
-        if (!hasShader(*part))
-            return "the part " + std::string(particles::kindName(part->kind())) + " '" + part->name() + "'";
+        if (!hasShader(*part)) return "the part " + std::string(kindName(part->kind())) + " '" + part->name() + "'";
+    const Part& colour = *parts.colour();
+    if (colour.name() == "bezier" && colour.values().choice("mode", samplingModes) == maths::SamplingMode::paper)
+        return "the part colour 'bezier' with mode=paper";
     const ParameterValues& life = parts.lifetime().values();
-    if (life.real("per_speed") != 0 || particles::vectorOf(life, "per_metre", particles::spaceAxes) != glm::dvec3(0))
+    if (life.real("per_speed") != 0 || vectorOf(life, "per_metre", spaceAxes) != glm::dvec3(0))
         return "a lifetime by speed or place";
     if (parts.forces().size() > maximumForces) return "a list of more than 16 forces";
     return {};
 }
 
 bool ownColours(const PartList& parts) {
-    return parts.colour()->name() == "bands";
+    const std::string& colour = parts.colour()->name();
+    return colour == "bands" || colour == "linear" || colour == "bezier";
 }
 
 double longestLifeSeconds(const PartList& parts) {
@@ -171,8 +179,8 @@ double longestLifeSeconds(const PartList& parts) {
     return life.values().real("average_seconds") + life.values().real("variation_seconds");
 }
 
-StepValues stepValues(const PartList& parts, const particles::Step& step, const particles::Births& births,
-                      std::span<const particles::Emitter> emitters, std::uint64_t firstSerial) {
+StepValues stepValues(const PartList& parts, const Step& step, const Births& births, std::span<const Emitter> emitters,
+                      std::uint64_t firstSerial) {
     StepValues values;
     values.key = {halves(step.seed), halves(firstSerial)};
     values.numbers.x = static_cast<std::uint32_t>(births.count);
@@ -194,4 +202,4 @@ StepValues stepValues(const PartList& parts, const particles::Step& step, const 
     return values;
 }
 
-}  // namespace dustbench::world
+}  // namespace dustbench::particles

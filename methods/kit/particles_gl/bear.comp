@@ -67,8 +67,12 @@ void main() {
     serials[2u * i] = serial.x;
     serials[2u * i + 1u] = serial.y;
 #ifdef COLOURED
-    bool isSecond = uniform4(colourStream, quotient(serial, numbers.z)).x < colours[0].w;
-    vec3 colour = isSecond ? colours[1].xyz : colours[0].xyz;
-    for (uint channel = 0u; channel < 3u; ++channel) colours_[3u * i + channel] = colour[channel];
+    if (life.w == 1.0) {
+        for (uint channel = 0u; channel < 3u; ++channel) colours_[3u * i + channel] = colourAt(share, channel);
+    } else {
+        bool isSecond = uniform4(colourStream, quotient(serial, numbers.z)).x < colours[0].w;
+        vec3 colour = isSecond ? colours[1].xyz : colours[0].xyz;
+        for (uint channel = 0u; channel < 3u; ++channel) colours_[3u * i + channel] = colour[channel];
+    }
 #endif
 }

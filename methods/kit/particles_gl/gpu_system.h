@@ -1,6 +1,6 @@
-// Dust that lives in GPU buffers: the steps of a particle system as compute shaders.
+// A particle system that lives in GPU buffers: its steps as compute shaders.
 //
-// The same random numbers, the same order of operations and the same order of storage as particles::ParticleSystem: a
+// The same random numbers, the same order of operations and the same order of storage as ParticleSystem: a
 // newborn takes the place of a dead particle, and the last survivors close the gaps. Serials, births, deaths and counts
 // are equal to the CPU's; positions too where the device divides and takes roots exactly.
 // The CPU computes how many are born, and from that a bound on the number of particles, which sizes the buffers; only
@@ -20,25 +20,27 @@
 #include "methods/kit/particles/particle_store.h"
 #include "methods/kit/particles/particle_system.h"
 
-namespace dustbench::world {
+namespace dustbench::particles {
 
-class GpuDust {
+class DUSTBENCH_API GpuSystem {
  public:
     /// `parts` must be complete, and outlive this like `device`; no other system may use them. Throws InputError with
     /// the first part that has no shader.
-    GpuDust(gpu::Device& device, const particles::PartList& parts, std::uint64_t seed);
-    ~GpuDust();
-    GpuDust(const GpuDust&) = delete;
-    GpuDust& operator=(const GpuDust&) = delete;
+    GpuSystem(gpu::Device& device, const PartList& parts, std::uint64_t seed);
+    ~GpuSystem();
+    GpuSystem(const GpuSystem&) = delete;
+    GpuSystem& operator=(const GpuSystem&) = delete;
 
     /// One step, as ParticleSystem::update, for one particle per puff. Throws InputError if the particles do not fit
     /// the device.
-    void update(const particles::Surroundings& surroundings);
+    void update(const Surroundings& surroundings);
 
     /// Valid until the next update.
     [[nodiscard]] GpuPuffs buffers() const;
+    /// The number of particles, read back: waits for the GPU.
+    [[nodiscard]] std::uint32_t count() const;
     /// The particles on the CPU, read back once per step: waits for the GPU. Valid until the next update.
-    [[nodiscard]] const particles::ParticleStore& readBack();
+    [[nodiscard]] const ParticleStore& readBack();
     [[nodiscard]] MemoryReport memory() const;
 
  private:
@@ -46,4 +48,4 @@ class GpuDust {
     std::unique_ptr<State> state_;
 };
 
-}  // namespace dustbench::world
+}  // namespace dustbench::particles

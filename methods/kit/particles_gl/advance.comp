@@ -12,6 +12,10 @@ void main() {
     float r = radiusAt(share);
     looks[2u * i] = r;
     looks[2u * i + 1u] = opacityAt(share);
+#ifdef COLOURED
+    if (life.w == 1.0)
+        for (uint channel = 0u; channel < 3u; ++channel) colours_[3u * i + channel] = colourAt(share, channel);
+#endif
 
     vec3 position = vectorAt(i, false), velocity = vectorAt(i, true);
     vec3 acceleration = accelerationAt(position, velocity);

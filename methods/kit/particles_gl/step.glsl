@@ -8,8 +8,9 @@ layout(std140, binding = 0) uniform Step {
     dvec2 seconds;  // of the step
     vec4 radius;    // at birth, change over life; z: seconds of the step
     vec4 opacity;   // coefficients of the curve
-    vec4 life;      // mean lifetime, deviation; z: 1 if the opacity is held at 0
+    vec4 life;      // mean lifetime, deviation; z: 1 if the opacity is held at 0; w: 1 if the colour follows a curve
     vec4 colours[2];  // w of the first: share of the second
+    vec4 colourCurves[3];  // coefficients, for each channel
     vec4 source;    // radius of the disc; speed of the cone: own, share of the emitter's, deviation
     vec4 cone;      // depth, half angle in turns, 1 for the printed formula, share of the carrier's velocity
     vec4 coneFrame[3];

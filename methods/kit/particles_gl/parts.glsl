@@ -18,6 +18,11 @@ float opacityAt(float share) {
     precise float value = opacity.x + share * (opacity.y + share * (opacity.z + share * opacity.w));
     return life.z == 1.0 && !(value > 0.0) ? 0.0 : value;
 }
+float colourAt(float share, uint channel) {
+    vec4 curve = colourCurves[channel];
+    precise float value = curve.x + share * (curve.y + share * (curve.z + share * curve.w));
+    return value > 0.0 ? value : 0.0;
+}
 float radiusAt(float share) {
     precise float value = radius.x + radius.y * share;
     return value;

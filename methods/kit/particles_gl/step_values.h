@@ -1,5 +1,5 @@
-// The numbers of one step of dust on the GPU: the parameters of its parts, the emitters and the births, as the shaders'
-// uniform block `Step` (step.glsl).
+// The numbers of one step of particles on the GPU: the parameters of its parts, the emitters and the births, as the
+// shaders' uniform block `Step` (step.glsl).
 //
 // Units: SI. Frame: world. Threads: pure.
 #pragma once
@@ -11,7 +11,7 @@
 
 #include "methods/kit/particles/part_list.h"
 
-namespace dustbench::world {
+namespace dustbench::particles {
 
 inline constexpr std::size_t maximumEmitters = 4, maximumForces = 16;
 
@@ -22,6 +22,7 @@ struct StepValues {
     glm::dvec2 births{0}, seconds{0};
     glm::vec4 radius{0}, opacity{0}, life{0};
     glm::vec4 colours[2]{};
+    glm::vec4 colourCurves[3]{};
     glm::vec4 source{0}, cone{0};
     glm::vec4 coneFrame[3]{};
     glm::vec4 from[maximumEmitters]{}, to[maximumEmitters]{}, velocityFrom[maximumEmitters]{},
@@ -33,15 +34,14 @@ struct StepValues {
 };
 
 /// The first part without a shader, as `the part force 'boids'`; empty if all have one.
-[[nodiscard]] std::string partWithoutShader(const particles::PartList& parts);
+[[nodiscard]] DUSTBENCH_API std::string partWithoutShader(const PartList& parts);
 /// Whether particles have their own colours.
-[[nodiscard]] bool ownColours(const particles::PartList& parts);
+[[nodiscard]] bool ownColours(const PartList& parts);
 /// The longest lifetime of a particle.
-[[nodiscard]] double longestLifeSeconds(const particles::PartList& parts);
+[[nodiscard]] double longestLifeSeconds(const PartList& parts);
 
 /// The values of a step in which `births` of `emitters` begin with serial `firstSerial`. All parts have shaders.
-[[nodiscard]] StepValues stepValues(const particles::PartList& parts, const particles::Step& step,
-                                    const particles::Births& births, std::span<const particles::Emitter> emitters,
-                                    std::uint64_t firstSerial);
+[[nodiscard]] StepValues stepValues(const PartList& parts, const Step& step, const Births& births,
+                                    std::span<const Emitter> emitters, std::uint64_t firstSerial);
 
-}  // namespace dustbench::world
+}  // namespace dustbench::particles
