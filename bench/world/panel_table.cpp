@@ -14,6 +14,7 @@
 #include "methods/kit/files/input_log.h"
 #include "methods/kit/files/limits.h"
 #include "methods/kit/files/toml_reader.h"
+#include "methods/kit/meshes/curved_panel.h"
 #include "methods/kit/pictures/picture_files.h"
 
 namespace dustbench::world {
@@ -24,7 +25,7 @@ constexpr double touching = 1e-6;  // metres: plates that only touch do not over
 constexpr Choices<scene::Panel::Parent> parents{{"world", scene::Panel::Parent::world},
                                                 {"vehicle", scene::Panel::Parent::vehicle}};
 
-/// The half edges of a plate as vectors, and its centre.
+/// The half edges of a box around a plate as vectors, and its centre.
 struct Box {
     glm::dvec3 middle;
     std::array<glm::dvec3, 3> half;
@@ -32,9 +33,10 @@ struct Box {
 
 Box boxOf(const scene::Panel& panel) {
     const glm::dmat4& pose = panel.toParent;
-    return {glm::dvec3(pose * glm::dvec4(0, 0, -panel.depthMetres / 2, 1)),
-            {glm::dvec3(pose[0]) * (panel.sizeMetres.x / 2), glm::dvec3(pose[1]) * (panel.sizeMetres.y / 2),
-             glm::dvec3(pose[2]) * (panel.depthMetres / 2)}};
+    const meshes::PlateBounds bounds = meshes::boundsOf(panel);
+    const glm::dvec3 half = (bounds.high - bounds.low) / 2.0;
+    return {glm::dvec3(pose * glm::dvec4((bounds.low + bounds.high) / 2.0, 1)),
+            {glm::dvec3(pose[0]) * half.x, glm::dvec3(pose[1]) * half.y, glm::dvec3(pose[2]) * half.z}};
 }
 
 double reachAlong(const Box& box, const glm::dvec3& axis) {
@@ -76,6 +78,21 @@ glm::dvec2 readSize(files::TomlReader& table) {
                          fmt::format("key 'size_metres': got [{}], expected two numbers 0.01..1000, width and height",
                                      fmt::join(size, ", ")));
     return {size[0], size[1]};
+}
+
+/// The slope at the rim is at most 1, and the relief's frame has one place for each point of the plate and its
+/// surroundings.
+glm::dvec2 readCurvature(files::TomlReader& table, const scene::Panel& panel) {
+    if (!table.has("curvature_per_metre")) return glm::dvec2(0);
+    const std::vector<double> curvature = table.numbers("curvature_per_metre", 2);
+    const glm::dvec2 most = glm::min(2.0 / panel.sizeMetres, glm::dvec2(0.25 / panel.depthMetres));
+    if (curvature.size() != 2 || !(std::abs(curvature[0]) <= most.x) || !(std::abs(curvature[1]) <= most.y))
+        throw InputError(
+            table.where("curvature_per_metre") +
+            fmt::format("key 'curvature_per_metre': got [{}], expected two numbers, along width and height, within "
+                        "-{:.3g}..{:.3g} and -{:.3g}..{:.3g} for this size and depth",
+                        fmt::join(curvature, ", "), most.x, most.x, most.y, most.y));
+    return {curvature[0], curvature[1]};
 }
 
 std::shared_ptr<const scene::Relief> readReliefOf(files::TomlReader& table, const std::filesystem::path& sceneFile,
@@ -195,6 +212,7 @@ scene::Panel readPanel(files::TomlReader& table, const std::filesystem::path& sc
     panel.parent = table.has("parent") ? table.choice("parent", parents) : scene::Panel::Parent::world;
     panel.sizeMetres = readSize(table);
     panel.depthMetres = table.number("depth_metres", 1e-4, 100);
+    panel.curvaturePerMetre = readCurvature(table, panel);
     glm::dvec3 position = table.vector3("position");
     const glm::dvec3 turn = glm::radians(table.vector3("rotation_degrees", {}));
     const bool onGround = table.boolean("on_ground", panel.parent == scene::Panel::Parent::world);

@@ -94,6 +94,17 @@ TEST_F(PanelTest, SaysWhatIsWrongOfBadInput) {
                 HasSubstr("position"));
     EXPECT_THAT(message(panel("wall", "position = [5, 1, 0]\nsize_metres = [4, 2]\n")), HasSubstr("depth_metres"));
     EXPECT_THAT(message(panel("wall", wall_ + "parent = \"car\"\n")), HasSubstr("one of world, vehicle"));
+    for (const char* bend : {"[0.1]", "[nan, 0]", "0.1"})
+        EXPECT_THAT(message(panel("wall", wall_ + "curvature_per_metre = " + bend + "\n")),
+                    HasSubstr("curvature_per_metre"));
+    for (const char* bend : {"[0.6, 0]", "[0, 1.1]", "[0.1, 0, 0]"})
+        EXPECT_THAT(message(panel("wall", wall_ + "curvature_per_metre = " + bend + "\n")),
+                    HasSubstr("within -0.5..0.5 and -1..1 for this size and depth"));
+    // The rims of a bulging face would be below the ground.
+    EXPECT_THAT(message(panel("floor",
+                              "position = [5, 0.2, 0]\nrotation_degrees = [-90, 0, 0]\nsize_metres = [4, 2]\n"
+                              "depth_metres = 0.1\ncurvature_per_metre = [0.2, 0]\n")),
+                HasSubstr("extends into the ground"));
     EXPECT_THAT(message("[[panel]]\nname = \"w\"\nrelief = \"brick\"\n" + wall_), HasSubstr("did you mean 'bricks'?"));
     EXPECT_THAT(message("[[panel]]\nname = \"w\"\nrelief = \"./none.toml\"\n" + wall_), HasSubstr("none.toml"));
 }

@@ -52,7 +52,8 @@ struct Relief {
 /// A plate whose face has a relief.
 ///
 /// Frame: the panel's. The face is the plane z = 0 and looks towards +z; its centre is the origin; x runs along the
-/// columns and y along the rows. The plate reaches from z = −depthMetres to z = 0.
+/// columns and y along the rows. The plate reaches from z = −depthMetres to z = 0. A panel may be curved
+/// (kit/meshes/curved_panel.h); this then describes the frame of its relief.
 struct Panel {
     enum class Parent { world, vehicle };
 
@@ -61,6 +62,7 @@ struct Panel {
     glm::dmat4 toParent{1};  ///< rotation and translation; metres
     glm::dvec2 sizeMetres{1};
     double depthMetres = 0.05;
+    glm::dvec2 curvaturePerMetre{0};  ///< along x and y; above 0: the face bulges
     std::shared_ptr<const Relief> relief;
 };
 

@@ -1,7 +1,11 @@
 #include "methods/relief/living_relief.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "methods/contract/errors.h"
+#include "methods/kit/meshes/curved_panel.h"
 
 namespace dustbench::relief {
 namespace {
@@ -21,9 +25,37 @@ struct FacePlane {
     float offset;
 };
 
-}  // namespace
+/// The part of the way from `from` to `to` within a box, as shares of it; empty (first > last) if there is none.
+struct Within {
+    double first = 0, last = 1;
+};
+Within within(const meshes::PlateBounds& box, const glm::dvec3& from, const glm::dvec3& to) {
+    Within part;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double way = to[axis] - from[axis];
+        if (way == 0 && (from[axis] < box.low[axis] || from[axis] > box.high[axis])) return {1, 0};
+        if (way == 0) continue;
+        const double a = (box.low[axis] - from[axis]) / way, b = (box.high[axis] - from[axis]) / way;
+        part.first = std::max(part.first, std::min(a, b));
+        part.last = std::min(part.last, std::max(a, b));
+    }
+    return part;
+}
 
-namespace {
+/// The place where a straight way in the panel's frame passes a curved face from outside, in the frame of the relief.
+std::optional<glm::dvec3> entryThroughCurve(const scene::Panel& panel, const glm::dvec3& from, const glm::dvec3& to) {
+    const Within part = within(meshes::boundsOf(panel), from, to);
+    if (part.first > part.last) return std::nullopt;
+    const auto reliefAt = [&](double share) { return meshes::toRelief(panel, glm::mix(from, to, share)); };
+    double outside = part.first, inside = part.last;
+    // Where the box touches the face, rounding may put either end on the wrong side.
+    if (!(reliefAt(outside).z > -1e-9 && reliefAt(inside).z <= 0)) return std::nullopt;
+    for (int halving = 0; halving < 40; ++halving) {
+        const double middle = 0.5 * (outside + inside);
+        (reliefAt(middle).z > 0 ? outside : inside) = middle;
+    }
+    return reliefAt(inside);
+}
 
 ReliefStyle with(ReliefStyle style, bool carShadow, bool dustShadow) {
     style.carShadow = carShadow;
@@ -42,6 +74,9 @@ LivingRelief::LivingRelief(const scene::Scene& scene, const scene::Panel& panel,
       pyramid_(surface_.depths(), ledger),
       particles_(panel, ledger),
       picture_(device, scene, panel, pyramid_, with(settings.style, takesCarShadow_, scene.lights.onDust)) {
+    if (settings.state == StateIn::texture && meshes::isCurved(panel))
+        throw InputError("parameter state: got texture with the curved panel '" + panel.name +
+                         "', allowed: array, or panels without curvature_per_metre");
     if (settings.state == StateIn::texture)
         textures_ = std::make_unique<TextureMover>(device, panel, surface_.depths());
 }
@@ -53,14 +88,33 @@ void LivingRelief::create(const Frame& frame, SerialSet& taken) {
     frame_ = PanelFrame(before, toWorld_, frame.stepSeconds);
 
     const FacePlane planeBefore(before), planeNow(toWorld_);
+    const meshes::PlateBounds plate = meshes::boundsOf(panel_);
+    const auto highest = static_cast<float>(plate.high.z),
+               lowest = static_cast<float>(plate.low.z + panel_.depthMetres);
     const Puffs& dust = frame.dust;
     const auto dt = static_cast<float>(frame.stepSeconds);
     for (std::size_t i = 0; i < dust.x.size(); ++i) {
-        if (planeNow.distance(dust.x[i], dust.y[i], dust.z[i]) > marginMetres) continue;
+        if (planeNow.distance(dust.x[i], dust.y[i], dust.z[i]) > highest + marginMetres) continue;
         const float earlier = planeBefore.distance(
             dust.x[i] - dust.velocityX[i] * dt, dust.y[i] - dust.velocityY[i] * dt, dust.z[i] - dust.velocityZ[i] * dt);
-        if (earlier > -marginMetres) enter(dust, i, frame.stepSeconds, taken);
+        if (earlier > lowest - marginMetres) enter(dust, i, frame.stepSeconds, taken);
     }
+}
+
+/// Where a way in the panel's frame passes the face from outside, in the frame of the relief.
+std::optional<glm::dvec3> LivingRelief::entryOf(const glm::dvec3& from, const glm::dvec3& to) const {
+    if (meshes::isCurved(panel_)) return entryThroughCurve(panel_, from, to);
+    if (!(from.z > 0 && to.z <= 0)) return std::nullopt;
+    return glm::mix(from, to, from.z / (from.z - to.z));
+}
+
+Moving LivingRelief::inWorld(std::size_t particle) const {
+    const glm::dvec3 place(particles_.places()[particle]), velocity(particles_.velocities()[particle]);
+    return frame_.toWorld({meshes::fromRelief(panel_, place), meshes::reliefAxes(panel_, place) * velocity});
+}
+
+glm::dvec3 LivingRelief::placeInWorld(const glm::dvec3& relief) const {
+    return glm::dvec3(toWorld_ * glm::dvec4(meshes::fromRelief(panel_, relief), 1));
 }
 
 void LivingRelief::enter(const Puffs& dust, std::size_t i, double stepSeconds, SerialSet& taken) {
@@ -68,11 +122,12 @@ void LivingRelief::enter(const Puffs& dust, std::size_t i, double stepSeconds, S
     const glm::dvec3 place(dust.x[i], dust.y[i], dust.z[i]);
     const glm::dvec3 from = frame_.toPanelBefore(place - velocity * stepSeconds);
     const Moving now = frame_.toPanel({place, velocity});
-    if (!(from.z > 0 && now.place.z <= 0) || taken.contains(dust.serial[i])) return;
-    const glm::dvec3 entry = glm::mix(from, now.place, from.z / (from.z - now.place.z));
-    if (std::abs(entry.x) > panel_.sizeMetres.x / 2 || std::abs(entry.y) > panel_.sizeMetres.y / 2) return;
-    particles_.add({glm::vec3(entry.x, entry.y, 0), glm::vec3(now.velocity)}, {dust.radius[i], dust.opacity[i]},
-                   dust.serial[i]);
+    if (taken.contains(dust.serial[i])) return;
+    const std::optional<glm::dvec3> entry = entryOf(from, now.place);
+    if (!entry || std::abs(entry->x) > panel_.sizeMetres.x / 2 || std::abs(entry->y) > panel_.sizeMetres.y / 2) return;
+    const glm::dvec3 within(entry->x, entry->y, 0);
+    const glm::dvec3 velocityWithin = glm::inverse(meshes::reliefAxes(panel_, within)) * now.velocity;
+    particles_.add({glm::vec3(within), glm::vec3(velocityWithin)}, {dust.radius[i], dust.opacity[i]}, dust.serial[i]);
     taken.insert(dust.serial[i]);
 }
 
@@ -128,7 +183,7 @@ void LivingRelief::handOver(VolumeVisitor& visitor) const {
         for (int column = 0; column < map.columns(); ++column) {
             const std::size_t i = map.texel(column, row);
             const glm::dvec3 place = particles_.texels().toMetres({column, row, map.at(column, row)});
-            columns.position.emplace_back(toWorld_ * glm::dvec4(place, 1));
+            columns.position.emplace_back(placeInWorld(place));
             columns.height.push_back(static_cast<float>(1 - map.at(column, row)));
             columns.removed.push_back(metres(surface_.worn()[i]));
             columns.laid.push_back(metres(surface_.laid()[i]));

@@ -65,13 +65,15 @@ class LivingRelief {
 
     [[nodiscard]] const WornSurface& surface() const { return surface_; }
     [[nodiscard]] const ReliefParticles& particles() const { return particles_; }
-    [[nodiscard]] const PanelFrame& frame() const { return frame_; }
-    [[nodiscard]] const glm::dmat4& toWorld() const { return toWorld_; }
+    /// Place and velocity of a particle within the relief, in the world.
+    [[nodiscard]] Moving inWorld(std::size_t particle) const;
+    [[nodiscard]] glm::dvec3 placeInWorld(const glm::dvec3& relief) const;
     [[nodiscard]] std::uint64_t hits() const { return hits_; }
     [[nodiscard]] std::size_t gpuBytes() const { return picture_.gpuBytes() + (textures_ ? textures_->gpuBytes() : 0); }
     void addTo(maths::Hash& hash) const;
 
  private:
+    [[nodiscard]] std::optional<glm::dvec3> entryOf(const glm::dvec3& from, const glm::dvec3& to) const;
     void enter(const Puffs& dust, std::size_t i, double stepSeconds, SerialSet& taken);
 
     const scene::Panel& panel_;

@@ -82,7 +82,7 @@ std::vector<glm::vec3> Relief::litGrains(const Frame& frame) const {
     std::vector<glm::vec3> colours;
     for (const LivingRelief& relief : reliefs_)
         for (const glm::vec4& place : relief.particles().places()) {
-            const glm::dvec3 world(relief.toWorld() * glm::dvec4(glm::dvec3(place), 1));
+            const glm::dvec3 world = relief.placeInWorld(glm::dvec3(place));
             const glm::dvec3 sight = glm::normalize(world - frame.view.camera.eye);
             const auto cosine = static_cast<float>(glm::dot(sight, glm::dvec3(scene_->lights.toSun)));
             const auto transmittance = static_cast<float>(std::exp(-depths.at(world)));
@@ -100,7 +100,7 @@ void Relief::uploadGrains(const Frame& frame) {
     std::size_t number = 0;
     for (const LivingRelief& relief : reliefs_)
         for (const glm::vec4& place : relief.particles().places()) {
-            const glm::vec3 world(relief.toWorld() * glm::dvec4(glm::dvec3(place), 1));
+            const glm::vec3 world(relief.placeInWorld(glm::dvec3(place)));
             for (const float each : {world.x, world.y, world.z, settings_.grainMetres, grainOpacity}) *value++ = each;
             if (!lit) continue;
             const glm::vec3& colour = colours[number++];
@@ -155,8 +155,7 @@ void Relief::copyGrains(double stepSeconds) const {
         store.resize(first + grains.size());
         for (std::size_t i = 0; i < grains.size(); ++i) {
             const std::size_t k = first + i;
-            const Moving world =
-                relief.frame().toWorld({glm::dvec3(grains.places()[i]), glm::dvec3(grains.velocities()[i])});
+            const Moving world = relief.inWorld(i);
             const glm::vec3 place(world.place), velocity(world.velocity);
             store.serial[k] = grains.serials()[i];
             store.x[k] = place.x, store.y[k] = place.y, store.z[k] = place.z;

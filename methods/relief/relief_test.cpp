@@ -10,8 +10,10 @@
 #include <random>
 #include <string>
 
+#include "methods/contract/errors.h"
 #include "methods/kit/draw/read_back.h"
 #include "methods/kit/draw/test_canvas.h"
+#include "methods/kit/meshes/curved_panel.h"
 #include "methods/kit/particles/particle_store.h"
 
 namespace dustbench::relief {
@@ -87,6 +89,25 @@ class DustRain {
         }
         return count;
     }
+    /// The same for a curved face: particles that passed from outside to inside on their way of `steps` steps.
+    [[nodiscard]] int through(const glm::dvec2& curvature, int steps) const {
+        int count = 0;
+        for (std::size_t i = 0; i < store_.size(); ++i) {
+            const glm::dvec3 now(store_.x[i], store_.y[i], store_.z[i]);
+            const glm::dvec3 velocity(store_.velocityX[i], store_.velocityY[i], store_.velocityZ[i]);
+            const auto at = [&](int moment) { return now - velocity * (dt * steps * (1 - moment / 4000.0)); };
+            const auto outside = [&](const glm::dvec3& place) {
+                return place.z > -0.5 * glm::dot(curvature, glm::dvec2(place) * glm::dvec2(place));
+            };
+            for (int moment = 1; moment <= 4000; ++moment) {
+                const glm::dvec3 place = at(moment);
+                if (outside(place) || !outside(at(moment - 1))) continue;
+                count += std::abs(place.x) <= 2 && std::abs(place.y) <= 1.5 ? 1 : 0;
+                break;
+            }
+        }
+        return count;
+    }
     [[nodiscard]] Puffs puffs() const { return store_; }
 
  private:
@@ -109,7 +130,8 @@ class ReliefTest : public testing::Test {
         ParameterValues values(info.parameters);
         for (const auto& [name, value] : parameters) values.set(name, value);
         const auto method = info.create(values);
-        const scene::Scene scene = secondWall_ ? twoWalls(seed) : wallScene(seed);
+        scene::Scene scene = secondWall_ ? twoWalls(seed) : wallScene(seed);
+        scene.panels[0].curvaturePerMetre = curvature_;
         method->prepare(scene, {}, draw::TestCanvas::device());
         draw::TestCanvas canvas(width, height, {0.4, 0.3, 4}, {-0.1, -0.1, -1});
         DustRain rain(800, seed);
@@ -121,7 +143,7 @@ class ReliefTest : public testing::Test {
             rain.step();
             method->update(frame(index));
         }
-        through_ = rain.through();
+        through_ = meshes::isCurved(scene.panels[0]) ? rain.through(curvature_, steps) : rain.through();
         Facts facts(info.facts, FactOver::lastFrame);
         method->report(frame(steps), facts);
         const auto picture = canvas.picture([&](gpu::Layer& layer) { method->draw(frame(steps), layer); });
@@ -134,6 +156,7 @@ class ReliefTest : public testing::Test {
     }
 
     int through_ = 0;
+    glm::dvec2 curvature_{0};  ///< of the first wall
     int turnEvery_ = 0;        ///< steps after which the dust flies back
     bool secondWall_ = false;  ///< behind the first
 };
@@ -147,6 +170,25 @@ TEST_F(ReliefTest, EachParticleThatEntersHitsAndNoneTwice) {
         EXPECT_GE(outcome.hits, through_ * 97 / 100);
         EXPECT_EQ(outcome.primitives, 800 - through_);  // particles inside the relief are not drawn behind the wall
     }
+}
+
+TEST_F(ReliefTest, ACurvedWallIsHitByWhatFliesThroughItsFace) {
+    for (const glm::dvec2& curvature : {glm::dvec2(0.5, 0), {-0.05, 0}, {0.3, 0.4}}) {
+        curvature_ = curvature;
+        const Outcome outcome = run({{"ageing", "scalar"}, {"scalar", "0"}}, 90);
+        EXPECT_GT(through_, 100) << curvature.x;
+        EXPECT_NEAR(static_cast<double>(800 - outcome.primitives), through_, 2) << curvature.x;
+        EXPECT_LE(outcome.hits, through_ + 2);
+        EXPECT_GE(outcome.hits, through_ * 95 / 100) << curvature.x;
+    }
+    const Outcome worn = run({{"ageing", "crater"}}, 90);
+    EXPECT_GT(worn.worn, 0);
+    EXPECT_LT(worn.massError, 1e-6);
+}
+
+TEST_F(ReliefTest, ACurvedWallKeepsItsParticlesInColumns) {
+    curvature_ = {0.5, 0};
+    EXPECT_THROW(run({{"state", "texture"}}, 1), InputError);
 }
 
 // The shared dust ignores reliefs: it may fly back through the face, or reach a second wall. Particles taken by a

@@ -134,9 +134,15 @@ class Stage {
         for (const auto& [name, value] : values) given.set(name, value);
         drawWith(info, given, world_.scene(), dust);
         if (!info.drawsPanels || !info.takesLights) return;
-        scene::Scene lit = world_.scene();  // panels under lit dust have shaders of their own
-        lit.lights.onDust = true;
-        drawWith(info, given, lit, dust);
+        // Panels under lit dust and curved ones have shaders of their own.
+        for (const bool curved : {false, true})
+            for (const bool lit : {false, true}) {
+                if (curved && given.canonical().at("state") == "texture") continue;  // refused
+                scene::Scene scene = world_.scene();
+                scene.lights.onDust = lit;
+                for (scene::Panel& panel : scene.panels) panel.curvaturePerMetre = {curved ? 0.1 : 0.0, 0};
+                if (curved || lit) drawWith(info, given, scene, dust);
+            }
     }
 
     /// Particles in front of the camera, each with its colour or all with one.

@@ -1,40 +1,51 @@
 #include "methods/kit/draw/panel_pass.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <memory>
 
 #include "methods/kit/maths/srgb.h"
+#include "methods/kit/meshes/curved_panel.h"
 
 namespace dustbench::draw {
 namespace {
 
 constexpr std::uint32_t pictureUnit = 4;
 
-/// A quadrilateral with corners counter-clockwise seen from outside, and a colour for each corner.
-void append(scene::Mesh& mesh, const std::array<glm::vec3, 4>& corners, const std::array<glm::vec3, 4>& colours) {
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    const glm::vec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-    mesh.positions.insert(mesh.positions.end(), corners.begin(), corners.end());
-    mesh.normals.insert(mesh.normals.end(), 4, normal);
-    mesh.colours.insert(mesh.colours.end(), colours.begin(), colours.end());
-    for (const std::uint32_t corner : {0, 1, 2, 0, 2, 3}) mesh.indices.push_back(first + corner);
-}
+constexpr int cellsOfCurve = 16;
 
-/// The plate's eight corners: bit 0 is +x, bit 1 is +y, bit 2 is the face.
-glm::vec3 cornerOf(const scene::Panel& panel, int bits) {
-    const glm::dvec2 half = panel.sizeMetres / 2.0;
-    return {(bits & 1) != 0 ? half.x : -half.x, (bits & 2) != 0 ? half.y : -half.y,
-            (bits & 4) != 0 ? 0.0 : -panel.depthMetres};
+/// A grid over two of the three coordinates of the relief's frame; `alongU` × `alongV` points outwards. `colourAt` gets
+/// the shares of both.
+template <typename ColourAt>
+void append(scene::Mesh& mesh, const scene::Panel& panel, const glm::dvec3& corner, const glm::dvec3& alongU,
+            const glm::dvec3& alongV, const ColourAt& colourAt) {
+    const bool curved = meshes::isCurved(panel);
+    // Edges along the plate's depth are straight.
+    const int columns = curved && alongU.z == 0 ? cellsOfCurve : 1, rows = curved && alongV.z == 0 ? cellsOfCurve : 1;
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (int row = 0; row <= rows; ++row)
+        for (int column = 0; column <= columns; ++column) {
+            const double u = static_cast<double>(column) / columns, v = static_cast<double>(row) / rows;
+            const glm::dvec3 relief = corner + u * alongU + v * alongV;
+            const glm::dmat3 axes = meshes::reliefAxes(panel, relief);
+            mesh.positions.emplace_back(meshes::fromRelief(panel, relief));
+            mesh.normals.emplace_back(glm::normalize(glm::cross(axes * alongU, axes * alongV)));
+            mesh.colours.push_back(colourAt(u, v));
+        }
+    const auto across = static_cast<std::uint32_t>(columns) + 1;
+    for (std::uint32_t row = 0; row < static_cast<std::uint32_t>(rows); ++row)
+        for (std::uint32_t column = 0; column + 1 < across; ++column) {
+            const std::uint32_t low = first + row * across + column, high = low + across;
+            mesh.indices.insert(mesh.indices.end(), {low, low + 1, high + 1, low, high + 1, high});
+        }
 }
 
 /// The face, with the place in the picture instead of a colour.
 scene::Mesh faceOf(const scene::Panel& panel) {
     scene::Mesh mesh;
-    append(mesh, {cornerOf(panel, 4), cornerOf(panel, 5), cornerOf(panel, 7), cornerOf(panel, 6)},
-           {glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(1, 1, 0), glm::vec3(0, 1, 0)});
+    append(mesh, panel, {-panel.sizeMetres / 2.0, 0}, {panel.sizeMetres.x, 0, 0}, {0, panel.sizeMetres.y, 0},
+           [](double u, double v) { return glm::vec3(u, v, 0); });
     return mesh;
 }
 
@@ -66,14 +77,18 @@ gpu::Texture colourTexture(gpu::Device& device, std::string_view label, const sc
 
 scene::Mesh panelPlate(const scene::Panel& panel) {
     scene::Mesh mesh;
-    std::array<glm::vec3, 4> colours;
-    colours.fill(meanColour(*panel.relief));
-    constexpr std::array<std::array<int, 4>, 5> sides{
-        {{0, 2, 3, 1}, {0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}}};  // back, left, right, lower, upper
-    for (const std::array<int, 4>& side : sides)
-        append(mesh,
-               {cornerOf(panel, side[0]), cornerOf(panel, side[1]), cornerOf(panel, side[2]), cornerOf(panel, side[3])},
-               colours);
+    const glm::dvec2 half = panel.sizeMetres / 2.0;
+    const glm::dvec3 right(panel.sizeMetres.x, 0, 0), up(0, panel.sizeMetres.y, 0), outwards(0, 0, panel.depthMetres);
+    const glm::dvec3 lowerLeft(-half, -panel.depthMetres), lowerRight = lowerLeft + right, upperLeft = lowerLeft + up;
+    const auto side = [&](const glm::dvec3& corner, const glm::dvec3& alongU, const glm::dvec3& alongV) {
+        const glm::vec3 colour = meanColour(*panel.relief);
+        append(mesh, panel, corner, alongU, alongV, [&](double, double) { return colour; });
+    };
+    side(lowerLeft, up, right);  // back
+    side(lowerLeft, outwards, up);
+    side(lowerRight, up, outwards);
+    side(lowerLeft, right, outwards);
+    side(upperLeft, outwards, right);
     return mesh;
 }
 
@@ -114,9 +129,12 @@ double PanelPass::reachOnVehicleMetres() const {
     double reach = 0;
     for (const Placed& placed : panels_) {
         if (placed.panel.parent != scene::Panel::Parent::vehicle) continue;
-        for (int corner = 0; corner < 8; ++corner)
-            reach = std::max(reach, glm::length(glm::dvec3(placed.panel.toParent *
-                                                           glm::dvec4(glm::dvec3(cornerOf(placed.panel, corner)), 1))));
+        const meshes::PlateBounds box = meshes::boundsOf(placed.panel);
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 share(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+            const glm::dvec3 place = glm::mix(box.low, box.high, share);
+            reach = std::max(reach, glm::length(glm::dvec3(placed.panel.toParent * glm::dvec4(place, 1))));
+        }
     }
     return reach;
 }

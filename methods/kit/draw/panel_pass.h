@@ -1,4 +1,4 @@
-// Draws the scene's panels flat: the relief's colours on the face of a plain plate.
+// Draws the scene's panels without their relief: its colours on the face of a smooth plate.
 //
 // Units: metres. Owns: meshes and pictures of the panels.
 #pragma once

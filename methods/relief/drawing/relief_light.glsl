@@ -1,4 +1,4 @@
-// Colour and light of a point of the relief.
+// Colour and light of a point of the relief. Places and normals are in the frame of the relief.
 uniform vec3 eye;  // in the panel's frame
 uniform vec3 plate;  // half width, half height, depth; metres
 uniform vec3 worldUp;  // in the panel's frame
@@ -30,8 +30,9 @@ vec3 normalAt(vec2 at) {
 // parts of the relief, or nothing.
 vec3 albedoAt(vec3 metres, vec3 normal) {
     vec2 where = (toTexels(metres).xy + 0.5) / texels;
-    float slant = abs(dot(normalize(metres - eye), normal));
-    vec2 perPixel = pixelAngle * distance(metres, eye) * texels / (2.0 * plate.xy);
+    vec3 sight = onPanel(metres) - eye;
+    float slant = abs(dot(normalize(sight), normalOnPanel(metres, normal)));
+    vec2 perPixel = pixelAngle * length(sight) * texels / (2.0 * plate.xy);
     float level = log2(max(perPixel.x, perPixel.y) / sqrt(max(slant, 0.05)));
     vec3 own = textureLod(colours, where, level).rgb;
     vec3 mark = textureLod(marks, where, level).rgb;
@@ -42,9 +43,10 @@ vec3 albedoAt(vec3 metres, vec3 normal) {
 float sunShare(vec3 metres, vec3 normal) {
 #ifdef SHADOW
     vec3 from = metres + normal * (0.02 * plate.z);
-    vec3 reach = (vec3(sign(toSun.xy) * plate.xy, 0.0) - from) / mix(toSun, vec3(1e-30), equal(toSun, vec3(0.0)));
+    vec3 there = directionInRelief(metres, toSun);  // straight also in a curved relief, since its shadows are short
+    vec3 reach = (vec3(sign(there.xy) * plate.xy, 0.0) - from) / mix(there, vec3(1e-30), equal(there, vec3(0.0)));
     float way = min(min(reach.x, reach.y), reach.z);
-    return way > 0.0 && firstHit(toTexels(from), toTexels(from + way * toSun)) != missed ? 0.0 : 1.0;
+    return way > 0.0 && firstHit(toTexels(from), toTexels(from + way * there)) != missed ? 0.0 : 1.0;
 #else
     return 1.0;
 #endif
@@ -55,25 +57,26 @@ layout(binding = 2) uniform sampler2DShadow carShadow;
 uniform mat4 panelToShadow;
 
 // Points beyond the map's far end are behind the car: depths below 0 count as 0.
-float pastCar(vec3 metres) {
-    vec3 at = (panelToShadow * vec4(metres, 1.0)).xyz;
+float pastCar(vec3 place) {
+    vec3 at = (panelToShadow * vec4(place, 1.0)).xyz;
     return texture(carShadow, vec3(at.xy, max(at.z, 0.0)));
 }
 #else
-float pastCar(vec3 metres) { return 1.0; }
+float pastCar(vec3 place) { return 1.0; }
 #endif
 
 #ifdef DUST
-float pastDust(vec3 metres) { return dustShare(metres); }
+float pastDust(vec3 place) { return dustShare(place); }
 #else
-float pastDust(vec3 metres) { return 1.0; }
+float pastDust(vec3 place) { return 1.0; }
 #endif
 
 vec3 shaded(vec3 metres, vec3 normal, vec3 albedo) {
-    float facing = max(dot(normal, toSun), 0.0);
-    float lit = facing > 0.0 ? sunShare(metres, normal) * pastCar(metres) * pastDust(metres) : 0.0;
-    vec3 around = mix(groundLight, ambient, 0.5 + 0.5 * dot(normal, worldUp));
+    vec3 place = onPanel(metres), upright = normalOnPanel(metres, normal);
+    float facing = max(dot(upright, toSun), 0.0);
+    float lit = facing > 0.0 ? sunShare(metres, normal) * pastCar(place) * pastDust(place) : 0.0;
+    vec3 around = mix(groundLight, ambient, 0.5 + 0.5 * dot(upright, worldUp));
     vec3 light = albedo * (sun * (facing * lit) + around);
-    float clear = exp(-hazePerMetre * distance(metres, eye));
+    float clear = exp(-hazePerMetre * distance(place, eye));
     return mix(haze, light, clear);
 }

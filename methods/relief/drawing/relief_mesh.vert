@@ -2,7 +2,7 @@
 // one more all around at the rim, and then the same again at the bottom.
 uniform mat4 panelToClip;
 
-out vec3 place;  // in the panel's frame
+out vec3 place;  // in the frame of the relief
 
 void main() {
     ivec2 corners = ivec2(texels) + 2;
@@ -11,5 +11,5 @@ void main() {
     vec2 at = clamp(vec2(corner), vec2(-0.5), texels - 0.5);
     float depth = gl_VertexID < surface ? depthOf(corner) : 1.0;
     place = vec3(((at + 0.5) / texels * 2.0 - 1.0) * plate.xy, -depth * plate.z);
-    gl_Position = panelToClip * vec4(place, 1.0);
+    gl_Position = panelToClip * vec4(onPanel(place), 1.0);
 }

@@ -12,6 +12,7 @@
 #include "methods/kit/draw/ground_pass.h"
 #include "methods/kit/draw/panel_pass.h"
 #include "methods/kit/gpu/draw_call.h"
+#include "methods/kit/meshes/curved_panel.h"
 #include "relief_drawing_shaders.h"
 
 namespace dustbench::relief {
@@ -25,12 +26,15 @@ void quadrilateral(std::vector<std::uint32_t>& indices, std::uint32_t a, std::ui
     indices.insert(indices.end(), {a, b, c, a, c, d});
 }
 
-std::vector<std::uint32_t> indicesOf(std::uint32_t columns, std::uint32_t rows) {
+std::vector<std::uint32_t> indicesOf(std::uint32_t columns, std::uint32_t rows, bool curved) {
     const std::uint32_t bottom = columns * rows, top = (rows - 1) * columns, right = columns - 1;
     std::vector<std::uint32_t> indices;
-    for (std::uint32_t row = 0; row + 1 < rows; ++row)
-        for (std::uint32_t n = row * columns; n < row * columns + right; ++n)
-            quadrilateral(indices, n, n + 1, n + columns + 1, n + columns);
+    const auto grid = [&](std::uint32_t first) {
+        for (std::uint32_t row = 0; row + 1 < rows; ++row)
+            for (std::uint32_t n = first + row * columns; n < first + row * columns + right; ++n)
+                quadrilateral(indices, n, n + 1, n + columns + 1, n + columns);
+    };
+    grid(0);
     const auto rim = [&](std::uint32_t first, std::uint32_t spacing, std::uint32_t count) {
         for (std::uint32_t k = 0; k + 1 < count; ++k) {
             const std::uint32_t n = first + k * spacing;
@@ -41,18 +45,31 @@ std::vector<std::uint32_t> indicesOf(std::uint32_t columns, std::uint32_t rows) 
     rim(top, 1, columns);
     rim(0, columns, rows);
     rim(right, columns, rows);
-    quadrilateral(indices, bottom, bottom + right, bottom + top + right, bottom + top);
+    if (curved)
+        grid(bottom);
+    else
+        quadrilateral(indices, bottom, bottom + right, bottom + top + right, bottom + top);
     return indices;
 }
 
 constexpr int stripVertices = 14;
 
-std::map<std::string, std::string> definitions(const ReliefStyle& style, const scene::Relief& relief) {
+/// Straight pieces of a ray in the frame of a curved relief: its sagitta in the longest ones is a millimetre for 2 m
+/// of plate with a radius of 1 m.
+constexpr int chords = 24;
+constexpr double boxMarginMetres = 1e-3;
+
+std::map<std::string, std::string> definitions(const ReliefStyle& style, const scene::Panel& panel) {
+    const scene::Relief& relief = *panel.relief;
     std::map<std::string, std::string> result{{"MOST_BLOCKS", std::to_string(16 * (relief.columns + relief.rows))}};
     if (style.march == March::paper) {
         result.emplace("PAPER_MARCH", "1");
         result.emplace("LINEAR_STEPS", std::to_string(style.linearSteps));
         result.emplace("BINARY_STEPS", std::to_string(style.binarySteps));
+    }
+    if (meshes::isCurved(panel)) {
+        result.emplace("CURVED", "1");
+        result.emplace("CHORDS", std::to_string(chords));
     }
     if (style.shadow) result.emplace("SHADOW", "1");
     if (style.carShadow) result.emplace("CAR_SHADOW", "1");
@@ -64,10 +81,11 @@ std::uint8_t toByte(float share) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f)));
 }
 
-gpu::Program programFor(gpu::Device& device, const ReliefStyle& style, const scene::Relief& relief) {
+gpu::Program programFor(gpu::Device& device, const ReliefStyle& style, const scene::Panel& panel) {
     namespace shaders = relief_drawing_shaders;
     const bool mesh = style.march == March::mesh;
-    const std::array files{shaders::relief_march_glsl,
+    const std::array files{shaders::relief_face_glsl,
+                           shaders::relief_march_glsl,
                            shaders::relief_dust_glsl,
                            draw_shaders::error_function_glsl,
                            draw_shaders::opaque_dust_glsl,
@@ -75,7 +93,7 @@ gpu::Program programFor(gpu::Device& device, const ReliefStyle& style, const sce
                            mesh ? shaders::relief_mesh_vert : shaders::relief_vert,
                            mesh ? shaders::relief_mesh_frag : shaders::relief_frag};
     return {device, mesh ? "relief mesh" : "relief", std::span<const gpu::ShaderFile>(files),
-            definitions(style, relief)};
+            definitions(style, panel)};
 }
 
 }  // namespace
@@ -109,10 +127,10 @@ glm::mat4 CarShadow::fromPanel(const glm::dmat4& panelToWorld) const {
     return glm::mat4(glm::dmat4(map_.eyeToTexture(glm::dvec3(0))) * panelToWorld);
 }
 
-ReliefMesh::ReliefMesh(gpu::Device& device, int columns, int rows)
+ReliefMesh::ReliefMesh(gpu::Device& device, int columns, int rows, bool curved)
     : vertices_(device), triangles_(2 * (columns + 1) * (rows + 1), 2 * (columns + 1), 2 * (rows + 1)) {
     const std::vector<std::uint32_t> indices =
-        indicesOf(static_cast<std::uint32_t>(columns) + 2, static_cast<std::uint32_t>(rows) + 2);
+        indicesOf(static_cast<std::uint32_t>(columns) + 2, static_cast<std::uint32_t>(rows) + 2, curved);
     indexCount_ = static_cast<int>(indices.size());
     indices_ = gpu::Buffer(device, "relief mesh", std::span<const std::uint32_t>(indices));
     vertices_.indices(indices_);
@@ -123,7 +141,7 @@ ReliefPass::ReliefPass(gpu::Device& device, const scene::Scene& scene, const sce
     : scene_(scene),
       panel_(panel),
       style_(style),
-      program_(programFor(device, style, *panel.relief)),
+      program_(programFor(device, style, panel)),
       noVertices_(device),
       depths_(device, "relief depths", panel.relief->depth.size() * sizeof(float)),
       colours_(draw::colourTexture(device, "relief colours", *panel.relief)),
@@ -132,8 +150,16 @@ ReliefPass::ReliefPass(gpu::Device& device, const scene::Scene& scene, const sce
       depthValues_(panel.relief->depth.size()),
       plateColour_(draw::meanColour(*panel.relief)) {
     if (style.march == March::mesh) {
-        mesh_.emplace(device, panel.relief->columns, panel.relief->rows);
+        mesh_.emplace(device, panel.relief->columns, panel.relief->rows, meshes::isCurved(panel));
         program_.set("triangles", mesh_->triangles());
+    }
+    if (meshes::isCurved(panel)) {
+        program_.set("curvature", glm::vec2(panel.curvaturePerMetre));
+        if (style.march != March::mesh) {
+            const meshes::PlateBounds bounds = meshes::boundsOf(panel);
+            program_.set("boxLow", glm::vec3(bounds.low - boxMarginMetres));
+            program_.set("boxHigh", glm::vec3(bounds.high + boxMarginMetres));
+        }
     }
     if (!marchesBlocks()) return;
     std::vector<glm::ivec4> levels;

@@ -3,7 +3,8 @@
 //
 // Units: m; colours: linear RGB. Owns: depths, pyramid, colours and marks, on the GPU; the shadow map and the car's
 // meshes; the picture. Threads: the OpenGL thread.
-// Source: Policarpo2005 (linear and binary search); the safe march is exact within each bilinear patch.
+// Source: Policarpo2005 (linear and binary search); Oliveira2005 (curved panels); the safe march is exact within each
+// bilinear patch, in a curved relief along the chords of the ray.
 #pragma once
 
 #include <cstdint>
@@ -51,10 +52,10 @@ class CarShadow {
 /// The triangles of a relief as a mesh of vertex indices; relief_mesh.vert computes the positions.
 ///
 /// Vertices: (columns + 2) × (rows + 2) of the surface, row by row, the outer ones at the rim; then the same number at
-/// the bottom. Triangles: two per patch, then lower, upper, left and right rim, then the back.
+/// the bottom. Triangles: two per patch, then lower, upper, left and right rim, then the back: two if it is flat.
 class ReliefMesh {
  public:
-    ReliefMesh(gpu::Device& device, int columns, int rows);
+    ReliefMesh(gpu::Device& device, int columns, int rows, bool curved);
 
     [[nodiscard]] const gpu::VertexArray& vertices() const { return vertices_; }
     [[nodiscard]] int indexCount() const { return indexCount_; }

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "methods/kit/lanes/lanes.h"
+#include "methods/kit/meshes/curved_panel.h"
 #include "methods/kit/parallel/for_each_block.h"
 #include "methods/relief/surface/surface_hit.h"
 
@@ -113,7 +114,8 @@ void ReliefParticles::add(const Motion& motion, const ParticleLook& look, std::u
 }
 
 ArrayMover::ArrayMover(const scene::Panel& panel)
-    : halfSize_(panel.sizeMetres / 2.0),
+    : panel_(&panel),
+      halfSize_(panel.sizeMetres / 2.0),
       texels_(panel),
       within_(halfSize_ * (1 - 1e-6)),
       patchScale_(texels_.toTexels(glm::dvec3(1)) - texels_.toTexels(glm::dvec3(0))),
@@ -133,12 +135,21 @@ bool ArrayMover::staysAbove(const glm::vec3& from, const glm::vec3& to, const De
     return std::max(a.z, b.z) + depthMargin < pyramid.nearestOver(low.x, low.y, level);
 }
 
+Motion ArrayMover::movedInRelief(const Motion& old, float ageSteps, const StepSettings& settings) const {
+    if (!meshes::isCurved(*panel_)) return moved(settings.law, old, settings.gravity, ageSteps, settings.stepSeconds);
+    const glm::dvec3 place(old.place);
+    const Motion onPanel{glm::vec3(meshes::fromRelief(*panel_, place)),
+                         glm::vec3(meshes::reliefAxes(*panel_, place) * glm::dvec3(old.velocity))};
+    const Motion now = moved(settings.law, onPanel, settings.gravity, ageSteps, settings.stepSeconds);
+    const glm::dvec3 there = meshes::toRelief(*panel_, glm::dvec3(now.place));
+    return {glm::vec3(there), glm::vec3(glm::inverse(meshes::reliefAxes(*panel_, there)) * glm::dvec3(now.velocity))};
+}
+
 Fate ArrayMover::advance(glm::vec4& place, glm::vec4& velocity, const DepthMap& surface,
                          const StepSettings& settings) const {
     place.w += 1;
     const glm::dvec3 from(place);
-    const Motion now =
-        moved(settings.law, {glm::vec3(place), glm::vec3(velocity)}, settings.gravity, place.w, settings.stepSeconds);
+    const Motion now = movedInRelief({glm::vec3(place), glm::vec3(velocity)}, place.w, settings);
     if (settings.pyramid && staysAbove(glm::vec3(place), now.place, *settings.pyramid)) {
         place = glm::vec4(now.place, place.w);
         velocity = glm::vec4(now.velocity, 0);
@@ -160,7 +171,7 @@ Fate ArrayMover::advance(glm::vec4& place, glm::vec4& velocity, const DepthMap& 
 
 /// The z above which there is no surface, with a margin; the face if that is unknown or another law applies.
 float ArrayMover::openAbove(const StepSettings& settings) const {
-    if (!settings.pyramid || settings.law != MotionLaw::fixed) return 0;
+    if (!settings.pyramid || settings.law != MotionLaw::fixed || meshes::isCurved(*panel_)) return 0;
     const float nearest = settings.pyramid->blocks().back() - 2 * depthMargin;
     return std::min(0.0f, nearest / patchScale_.z);
 }

@@ -4,8 +4,8 @@
 // age. The columns are those of the paper's two textures: position and age, and velocity. They are moved on the CPU, or
 // by a shader (particles_gl/texture_mover.h).
 //
-// Units: m, m/s, s; ages in steps. Frame: the panel's. Owns: its columns, booked on a ledger.
-// Threads: `step` uses the current oneTBB arena; results do not depend on the number of threads.
+// Units: m, m/s, s; ages in steps. Frame: that of the panel's relief (kit/meshes/curved_panel.h). Owns: its columns,
+// booked on a ledger. Threads: `step` uses the current oneTBB arena; results do not depend on the number of threads.
 // Source: Bergeron, 3.1 to 3.3.
 #pragma once
 
@@ -45,14 +45,14 @@ struct Motion {
     return {old.place + old.velocity * t + gravity * (0.5f * t * t), (old.velocity + gravity * stepSeconds) * ageSteps};
 }
 
-/// From the panel's frame to (u, v, depth) of its relief.
+/// From the frame of a panel's relief to its (u, v, depth).
 class TexelFrame {
  public:
     explicit TexelFrame(const scene::Panel& panel);
 
     [[nodiscard]] glm::dvec3 toTexels(const glm::dvec3& place) const { return place * scale_ + offset_; }
     [[nodiscard]] glm::dvec3 toMetres(const glm::dvec3& texels) const { return (texels - offset_) / scale_; }
-    /// Unit normal of the surface, in the panel's frame, for its slope in texels.
+    /// Unit normal of the surface, in the frame of the relief, for its slope in texels.
     [[nodiscard]] glm::dvec3 normal(const glm::dvec2& slope) const;
     [[nodiscard]] double texelAreaSquareMetres() const { return 1 / (scale_.x * scale_.y); }
     [[nodiscard]] double texelsPerMetre() const { return scale_.x; }
@@ -76,7 +76,7 @@ struct SurfaceHit {
 
 struct StepSettings {
     MotionLaw law = MotionLaw::fixed;
-    glm::vec3 gravity{0, -9.8f, 0};  ///< m/s²
+    glm::vec3 gravity{0, -9.8f, 0};  ///< m/s², in the panel's frame
     float stepSeconds = 1.0f / 60;
     float maximumAgeSteps = 600;
     /// Pyramid of the current surface; null: each particle is collided patch by patch, with the same result.
@@ -101,18 +101,22 @@ class Mover {
     virtual void move(const MovingColumns& columns, const DepthMap& surface, const StepSettings& settings) = 0;
 };
 
-/// The CPU mover, which is the reference implementation.
+/// The CPU mover, which is the reference implementation. A curved panel's particles move in the panel's frame: their
+/// paths in the frame of the relief are then curves, of which each step is a chord.
 class ArrayMover final : public Mover {
  public:
+    /// `panel` must outlive this.
     explicit ArrayMover(const scene::Panel& panel);
     void move(const MovingColumns& columns, const DepthMap& surface, const StepSettings& settings) override;
 
  private:
+    [[nodiscard]] Motion movedInRelief(const Motion& old, float ageSteps, const StepSettings& settings) const;
     [[nodiscard]] float openAbove(const StepSettings& settings) const;
     [[nodiscard]] bool staysAbove(const glm::vec3& from, const glm::vec3& to, const DepthPyramid& pyramid) const;
     [[nodiscard]] Fate advance(glm::vec4& place, glm::vec4& velocity, const DepthMap& surface,
                                const StepSettings& settings) const;
 
+    const scene::Panel* panel_;
     glm::dvec2 halfSize_;
     TexelFrame texels_;
     glm::vec2 within_;                    ///< slightly less than half the size, for rounding

@@ -7,6 +7,7 @@
 #include <memory>
 #include <random>
 
+#include "methods/kit/meshes/curved_panel.h"
 #include "methods/relief/surface/surface_hit.h"
 
 namespace dustbench::relief {
@@ -46,6 +47,36 @@ TEST_F(ReliefParticlesTest, TheFixedLawIsTheParabolaAtAnyStep) {
         EXPECT_LT(glm::distance(glm::vec3(particles.places()[0]), expected), 2e-5f) << steps;
         EXPECT_LT(glm::distance(glm::vec3(particles.velocities()[0]), velocity + gravity), 2e-5f);
         EXPECT_EQ(particles.places()[0].w, static_cast<float>(steps));
+    }
+}
+
+// Seen from the panel's frame, a particle in a curved relief flies the same parabola.
+TEST_F(ReliefParticlesTest, ACurvedReliefDoesNotBendPaths) {
+    struct Case {
+        glm::dvec2 bend;
+        double startX, speedX;  // the face comes closer on the way
+    };
+    for (const auto& [bend, startX, speedX] :
+         {Case{{1, 0}, 0.5, -0.9}, Case{{-0.8, 0}, 0.2, 0.9}, Case{{0.6, -0.7}, 0.5, -0.9}}) {
+        scene::Panel panel = panelOf(1.6, 1.6, 0.2, 2, 2, 1);
+        panel.curvaturePerMetre = bend;
+        const DepthMap surface(*panel.relief, ledger_);
+        const DepthPyramid pyramid(surface, ledger_);
+        for (const DepthPyramid* skip : {static_cast<const DepthPyramid*>(nullptr), &pyramid}) {
+            ReliefParticles particles(panel, ledger_);
+            const glm::dvec3 start(startX, 0.3, -0.02), velocity(speedX, 0.4, -0.05), gravity(0.2, -1, 0.05);
+            particles.add({glm::vec3(start), glm::vec3(glm::inverse(meshes::reliefAxes(panel, start)) * velocity)}, {},
+                          1);
+            for (int k = 0; k < 20; ++k)
+                particles.step(surface, {MotionLaw::fixed, glm::vec3(gravity), 1.0f / 60, 1000, skip});
+            ASSERT_EQ(particles.size(), 1u);
+            const double t = 20.0 / 60;
+            const glm::dvec3 expected = meshes::fromRelief(panel, start) + velocity * t + 0.5 * t * t * gravity;
+            const glm::dvec3 place(particles.places()[0]);
+            EXPECT_LT(glm::distance(meshes::fromRelief(panel, place), expected), 1e-5);
+            const glm::dvec3 now = meshes::reliefAxes(panel, place) * glm::dvec3(particles.velocities()[0]);
+            EXPECT_LT(glm::distance(now, velocity + t * gravity), 1e-5);
+        }
     }
 }
 
