@@ -9,7 +9,7 @@ void main() {
     float lifetime = lives[2u * i + 1u], share = shareOfLife(age, lifetime);
     lives[2u * i] = age;
     dead[i] = age > lifetime ? 1u : 0u;
-    float r = radiusAt(share);
+    float r = kinds.z == randomSize ? looks[2u * i] : radiusAt(share);
     looks[2u * i] = r;
     looks[2u * i + 1u] = opacityAt(share);
 #ifdef COLOURED

@@ -2,7 +2,7 @@
 layout(std430, binding = 9) readonly buffer Holes { uint holes[]; };
 layout(std430, binding = 10) readonly buffer Deaths { uint deaths; };
 
-const uint positionStream = 1u, velocityStream = 2u, lifeStream = 3u, colourStream = 5u;
+const uint positionStream = 1u, velocityStream = 2u, lifeStream = 3u, sizeStream = 4u, colourStream = 5u;
 
 uvec2 serialOf(uint newborn) {
     uint carry, low = uaddCarry(key.z, newborn, carry);
@@ -25,6 +25,49 @@ uint remainder(uvec2 serial, uint divisor) {
     return serial.x - whole.x * divisor;
 }
 
+vec3 placeOf(uint e, uvec2 serial, vec3 place) {
+    vec4 u = uniform4(positionStream, serial);
+    precise float first = 0.0, second = 0.0;
+    if (kinds.x == discSource) {
+        precise float fromCentre = sqrt(u.x);
+        first = source.x * (fromCentre * cosineOfTurns(u.y));
+        second = source.x * (fromCentre * sineOfTurns(u.y));
+    } else if (kinds.x == rectangleSource) {
+        first = (u.x - 0.5) * source.x;
+        second = (u.y - 0.5) * source.y;
+    } else if (kinds.x == lineSource) {
+        first = (source.y + u.x) * source.x;
+        precise vec3 onLine = place + first * sourceFirst[e].xyz;
+        return onLine;
+    } else if (kinds.x == ballSource) {
+        precise vec3 local =
+            source.x * (max(max(u.z, u.w), uniform4(positionStream, serial, 1u).x) * sphereDirection(u.x, u.y));
+        precise vec3 world = local.x * forward[e].xyz + local.y * up[e].xyz + local.z * right[e].xyz;
+        precise vec3 inBall = place + world;
+        return inBall;
+    } else {
+        return place;
+    }
+    precise vec3 onSource = place + first * sourceFirst[e].xyz + second * sourceSecond[e].xyz;
+    return onSource;
+}
+
+vec3 velocityOf(uint e, uvec2 serial, vec3 carrier) {
+    vec4 v = uniform4(velocityStream, serial);
+    if (kinds.y == coneVelocity) {
+        vec3 local = coneDirection(v.x, v.y);
+        precise vec3 direction = local.x * forward[e].xyz + local.y * up[e].xyz + local.z * right[e].xyz;
+        precise float speed = (launch.x + launch.y * forward[e].w) * (1.0 + launch.z * centred(v.z));
+        precise vec3 thrown = speed * direction + cone.w * carrier;
+        return thrown;
+    }
+    precise float speed = launch.x + centred(v.w) * launch.z;
+    vec3 local = coneFrame[0].xyz;
+    precise vec3 along = local.x * forward[e].xyz + local.y * up[e].xyz + local.z * right[e].xyz;
+    precise vec3 thrown = speed * (kinds.y == randomVelocity ? sphereDirection(v.x, v.y) : along);
+    return thrown;
+}
+
 void main() {
     uint newborn = gl_GlobalInvocationID.x;
     if (newborn >= numbers.x) return;
@@ -35,26 +78,16 @@ void main() {
     precise double lived = seconds.x - born, part = born / seconds.x;
     float age = float(lived), moment = float(part);
 
-    vec4 u = uniform4(positionStream, serial);
-    precise vec3 place = from[e].xyz * (1.0 - moment) + to[e].xyz * moment;
-    if (source.x >= 0.0) {
-        precise float fromCentre = sqrt(u.x);
-        precise float x = source.x * (fromCentre * cosineOfTurns(u.y));
-        precise float z = source.x * (fromCentre * sineOfTurns(u.y));
-        precise vec3 onDisc = place + x * discFirst[e].xyz + z * discSecond[e].xyz;
-        place = onDisc;
-    }
-
-    vec4 v = uniform4(velocityStream, serial);
-    vec3 local = coneDirection(v.x, v.y);
-    precise vec3 direction = local.x * forward[e].xyz + local.y * up[e].xyz + local.z * right[e].xyz;
-    precise float speed = (source.y + source.z * forward[e].w) * (1.0 + source.w * centred(v.z));
+    precise vec3 centre = from[e].xyz * (1.0 - moment) + to[e].xyz * moment;
+    vec3 place = placeOf(e, serial, centre);
     precise vec3 carrier = velocityFrom[e].xyz * (1.0 - moment) + velocityTo[e].xyz * moment;
-    precise vec3 thrown = speed * direction + cone.w * carrier;
+    vec3 thrown = velocityOf(e, serial, carrier);
     precise vec3 drifted = place + thrown * age;
 
     precise float lifetime = life.x + life.y * centred(uniform4(lifeStream, serial).x);
-    float share = shareOfLife(age, lifetime), r = radiusAt(share);
+    float share = shareOfLife(age, lifetime);
+    precise float random = radius.x + radius.y * centred(uniform4(sizeStream, serial).x);
+    float r = kinds.z == randomSize ? random : radiusAt(share);
     vec3 position = drifted, velocity = thrown;
     touch(r, position, velocity);
 

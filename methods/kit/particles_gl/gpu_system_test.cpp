@@ -93,10 +93,23 @@ TEST(GpuSystem, HasTheParticlesOfTheCpuInTheirOrder) {
 }
 
 TEST(GpuSystem, IsTheSameForEachPartWithAShader) {
+    const std::string cone = R"(part = "cone", direction = [-0.5, 0.8, 0.1], half_angle_degrees = 50, speed = 0.5, )"
+                             R"(speed_share = 0.15, variation = 0.6, inherit = 0.2)";
     const std::vector<std::pair<std::string, std::string>> changes{
         {R"(position = { part = "disc", radius_metres = 0.2 })", R"(position = { part = "point" })"},
         {R"(radius_metres = 0.2 })", R"(radius_metres = 0.2, normal = [0.3, 0.2, -1.0] })"},
         {R"(radius_metres = 0.2 })", R"(radius_metres = 0.2, at = "place", place = [3.0, 1.5, -2.0] })"},
+        {R"(part = "disc", radius_metres = 0.2)", R"(part = "rectangle", length_metres = 2, width_metres = 0.4)"},
+        {R"(part = "disc", radius_metres = 0.2)",
+         R"(part = "rectangle", length_metres = 2, width_metres = 0.4, normal = [0.3, 0.2, -1.0])"},
+        {R"(part = "disc", radius_metres = 0.2)",
+         R"(part = "line", length_metres = 2, direction = [0.2, 0.5, 1], base = "middle")"},
+        {R"(part = "disc", radius_metres = 0.2)", R"(part = "line", length_metres = 0.7, base = "end")"},
+        {R"(part = "disc", radius_metres = 0.2)", R"(part = "sphere", radius_metres = 0.6)"},
+        {cone, R"(part = "random", speed = 2, variation = 1)"},
+        {cone, R"(part = "fixed", direction = [0.4, 1, -0.2], speed = 2, variation = 0.5)"},
+        {R"(size = { part = "linear" })",
+         R"(size = { part = "random", average_metres = 0.3, variation_metres = 0.2 })"},
         {R"(part = "cone")", R"(part = "cone", mode = "paper")"},
         {R"(part = "constant", colour = [0.6, 0.5, 0.4], opacity_curve = "bezier")",
          R"(part = "constant", opacity_curve = "linear")"},

@@ -4,6 +4,9 @@
 
 layout(std430, binding = 8) readonly buffer Heights { float heights[]; };
 
+const uint pointSource = 0u, discSource = 1u, rectangleSource = 2u, lineSource = 3u, ballSource = 4u;
+const uint coneVelocity = 0u, randomVelocity = 1u, fixedVelocity = 2u;
+const uint sizeByAge = 0u, randomSize = 1u;
 const uint windForce = 1u, gravityForce = 2u, constantForce = 3u, dragForce = 4u, groundForce = 5u;
 
 uint kindOf(uint force) {

@@ -3,8 +3,8 @@
 // Source: Salmon2011, sections 3.3 and 5.
 
 /// Philox4x32-10.
-uvec4 randomWords(uint stream, uvec2 serial) {
-    uvec4 counter = uvec4(serial, stream, 0u);
+uvec4 randomWords(uint stream, uvec2 serial, uint draw) {
+    uvec4 counter = uvec4(serial, stream, draw);
     uvec2 bumped = key.xy;
     for (int n = 0; n < 10; ++n) {
         uint high0, low0, high1, low1;
@@ -15,9 +15,10 @@ uvec4 randomWords(uint stream, uvec2 serial) {
     }
     return counter;
 }
-vec4 uniform4(uint stream, uvec2 serial) {
-    return vec4(randomWords(stream, serial) >> 8) * (1.0 / 16777216.0);
+vec4 uniform4(uint stream, uvec2 serial, uint draw) {
+    return vec4(randomWords(stream, serial, draw) >> 8) * (1.0 / 16777216.0);
 }
+vec4 uniform4(uint stream, uvec2 serial) { return uniform4(stream, serial, 0u); }
 float centred(float u) {
     precise float value = 2.0 * u - 1.0;
     return value;
@@ -44,6 +45,14 @@ float cosineOfTurns(float turns) {
     precise float rest = turns - roundToInteger(turns);
     precise float folded = 0.25 - abs(rest);
     return sineOfQuarter(folded);
+}
+
+/// Any direction.
+vec3 sphereDirection(float u, float v) {
+    precise float z = 1.0 - 2.0 * u;
+    precise float r = sqrt(max(0.0, 1.0 - z * z));
+    precise vec3 direction = vec3(r * cosineOfTurns(v), r * sineOfTurns(v), z);
+    return direction;
 }
 
 /// A direction within the cone of the velocity part, in the emitter's frame.

@@ -4,18 +4,20 @@ layout(local_size_x = 256) in;
 layout(std140, binding = 0) uniform Step {
     uvec4 key;      // seed: low, high; serial of the first newborn: low, high
     uvec4 numbers;  // births, emitters, births that share a colour, forces
+    uvec4 kinds;    // of position, velocity and size: the numbers in parts.glsl
     dvec2 births;   // moment of the first, spacing; s
     dvec2 seconds;  // of the step
-    vec4 radius;    // at birth, change over life; z: seconds of the step
+    vec4 radius;    // at birth, change over life, or mean and deviation; z: seconds of the step
     vec4 opacity;   // coefficients of the curve
     vec4 life;      // mean lifetime, deviation; z: 1 if the opacity is held at 0; w: 1 if the colour follows a curve
     vec4 colours[2];  // w of the first: share of the second
     vec4 colourCurves[3];  // coefficients, for each channel
-    vec4 source;    // radius of the disc; speed of the cone: own, share of the emitter's, deviation
+    vec4 source;    // extents: radius, or length and width, or length and share of its beginning
+    vec4 launch;    // speed: own, share of the emitter's, deviation
     vec4 cone;      // depth, half angle in turns, 1 for the printed formula, share of the carrier's velocity
-    vec4 coneFrame[3];
+    vec4 coneFrame[3];  // of a fixed velocity: its direction, first
     vec4 from[4], to[4], velocityFrom[4], velocityTo[4], forward[4], up[4], right[4];  // of emitters; forward.w: speed
-    vec4 discFirst[4], discSecond[4];
+    vec4 sourceFirst[4], sourceSecond[4];  // directions of the extents
     vec4 ground;    // origin x and z, spacing of the heights
     ivec4 samples;  // columns, rows
     vec4 forces[64];  // four for each force; x of the first: its kind

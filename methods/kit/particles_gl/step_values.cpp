@@ -21,14 +21,27 @@ struct ShadedPart {
 };
 /// Emission runs on the CPU: it yields a number of births and their times. Render parts only describe the drawing.
 constexpr std::array shadedParts{
-    ShadedPart{PartKind::position, "point"}, ShadedPart{PartKind::position, "disc"},
-    ShadedPart{PartKind::velocity, "cone"},  ShadedPart{PartKind::colour, "constant"},
-    ShadedPart{PartKind::colour, "bands"},   ShadedPart{PartKind::size, "constant"},
-    ShadedPart{PartKind::colour, "linear"},  ShadedPart{PartKind::colour, "bezier"},
-    ShadedPart{PartKind::size, "linear"},    ShadedPart{PartKind::life, "lifetime"},
-    ShadedPart{PartKind::force, "wind"},     ShadedPart{PartKind::force, "gravity"},
-    ShadedPart{PartKind::force, "constant"}, ShadedPart{PartKind::force, "drag"},
+    ShadedPart{PartKind::position, "point"},     ShadedPart{PartKind::position, "disc"},
+    ShadedPart{PartKind::position, "rectangle"}, ShadedPart{PartKind::position, "line"},
+    ShadedPart{PartKind::position, "sphere"},    ShadedPart{PartKind::velocity, "cone"},
+    ShadedPart{PartKind::velocity, "random"},    ShadedPart{PartKind::velocity, "fixed"},
+    ShadedPart{PartKind::colour, "constant"},    ShadedPart{PartKind::colour, "bands"},
+    ShadedPart{PartKind::colour, "linear"},      ShadedPart{PartKind::colour, "bezier"},
+    ShadedPart{PartKind::size, "constant"},      ShadedPart{PartKind::size, "linear"},
+    ShadedPart{PartKind::size, "random"},        ShadedPart{PartKind::life, "lifetime"},
+    ShadedPart{PartKind::force, "wind"},         ShadedPart{PartKind::force, "gravity"},
+    ShadedPart{PartKind::force, "constant"},     ShadedPart{PartKind::force, "drag"},
     ShadedPart{PartKind::force, "ground"},
+};
+/// Of those, only with these modes.
+struct ShadedMode {
+    PartKind kind;
+    std::string_view name, mode;
+};
+constexpr std::array shadedModes{
+    ShadedMode{PartKind::position, "sphere", "exact"},
+    ShadedMode{PartKind::velocity, "random", "fixed"},
+    ShadedMode{PartKind::colour, "bezier", "fixed"},
 };
 
 bool hasShader(const Part& part) {
@@ -55,6 +68,9 @@ void setLook(StepValues& values, const PartList& parts, const Step& step) {
     if (size.name() == "linear")
         values.radius.x = number(size, "start_metres"),
         values.radius.y = number(size, "end_metres") - number(size, "start_metres");
+    else if (size.name() == "random")
+        values.kinds.z = 1, values.radius.x = number(size, "average_metres"),
+        values.radius.y = number(size, "variation_metres");
     else
         values.radius.x = number(size, "radius_metres");
     values.radius.z = static_cast<float>(step.seconds);
@@ -86,7 +102,18 @@ void setLook(StepValues& values, const PartList& parts, const Step& step) {
     values.numbers.z = static_cast<std::uint32_t>(colour.values().integer("births"));
 }
 
-void setCone(StepValues& values, const Part& velocity) {
+void setVelocity(StepValues& values, const Part& velocity) {
+    values.launch.x = number(velocity, "speed");
+    values.launch.z = number(velocity, "variation");
+    if (velocity.name() == "random") {
+        values.kinds.y = 1;
+        return;
+    }
+    if (velocity.name() == "fixed") {
+        values.kinds.y = 2;
+        values.coneFrame[0] = withW(directionOf(velocity.values(), "direction"));
+        return;
+    }
     const glm::vec3 axis = directionOf(velocity.values(), "direction");
     const maths::Tangents frame = maths::tangentsOf(axis);
     const float turns = static_cast<float>(velocity.values().real("half_angle_degrees") / 360);
@@ -96,20 +123,39 @@ void setCone(StepValues& values, const Part& velocity) {
     values.coneFrame[0] = withW(frame.first);
     values.coneFrame[1] = withW(frame.second);
     values.coneFrame[2] = withW(axis);
-    values.source.y = number(velocity, "speed");
-    values.source.z = number(velocity, "speed_share");
-    values.source.w = number(velocity, "variation");
+    values.launch.y = number(velocity, "speed_share");
+}
+
+/// Returns the directions of the source's extents, in the frame of its emitter.
+maths::Tangents setSource(StepValues& values, const Part& position) {
+    const std::string& name = position.name();
+    maths::Tangents axes{{1, 0, 0}, {0, 0, 1}};  // of a horizontal disc or rectangle
+    if (name == "disc" || name == "rectangle")
+        if (const glm::vec3 normal = directionOf(position.values(), "normal"); normal != glm::vec3(0, 1, 0))
+            axes = maths::tangentsOf(normal);
+    if (name == "disc") {
+        values.kinds.x = 1;
+        values.source.x = number(position, "radius_metres");
+    } else if (name == "rectangle") {
+        values.kinds.x = 2;
+        values.source.x = number(position, "length_metres");
+        values.source.y = number(position, "width_metres");
+    } else if (name == "line") {
+        values.kinds.x = 3;
+        values.source.x = number(position, "length_metres");
+        values.source.y = position.values().choice("base") == "middle" ? -0.5f : 0.0f;
+        axes.first = directionOf(position.values(), "direction");
+    } else if (name == "sphere") {
+        values.kinds.x = 4;
+        values.source.x = number(position, "radius_metres");
+    }
+    return axes;
 }
 
 void setEmitters(StepValues& values, const Part& position, std::span<const Emitter> emitters) {
     if (emitters.size() > maximumEmitters) throw std::logic_error("particles on the GPU: too many emitters");
     values.numbers.y = static_cast<std::uint32_t>(emitters.size());
-    const bool isDisc = position.name() == "disc";
-    values.source.x = isDisc ? number(position, "radius_metres") : -1.0f;
-    maths::Tangents axes{{1, 0, 0}, {0, 0, 1}};  // of a horizontal disc
-    if (isDisc)
-        if (const glm::vec3 normal = directionOf(position.values(), "normal"); normal != glm::vec3(0, 1, 0))
-            axes = maths::tangentsOf(normal);
+    const maths::Tangents axes = setSource(values, position);
     for (std::size_t e = 0; e < emitters.size(); ++e) {
         const Emitter& emitter = emitters[e];
         values.from[e] = withW(emitter.from);
@@ -119,8 +165,8 @@ void setEmitters(StepValues& values, const Part& position, std::span<const Emitt
         values.forward[e] = withW(emitter.forward, emitter.speed);
         values.up[e] = withW(emitter.up);
         values.right[e] = withW(emitter.right);
-        values.discFirst[e] = withW(emitter.toWorld(axes.first));
-        values.discSecond[e] = withW(emitter.toWorld(axes.second));
+        values.sourceFirst[e] = withW(emitter.toWorld(axes.first));
+        values.sourceSecond[e] = withW(emitter.toWorld(axes.second));
     }
 }
 
@@ -159,9 +205,12 @@ void setForce(glm::vec4* values, const Part& part, const Step& step) {
 std::string partWithoutShader(const PartList& parts) {
     for (const Part* part : parts.all())
         if (!hasShader(*part)) return "the part " + std::string(kindName(part->kind())) + " '" + part->name() + "'";
-    const Part& colour = *parts.colour();
-    if (colour.name() == "bezier" && colour.values().choice("mode", samplingModes) == maths::SamplingMode::paper)
-        return "the part colour 'bezier' with mode=paper";
+    for (const Part* part : parts.all())
+        for (const ShadedMode& shaded : shadedModes)
+            if (shaded.kind == part->kind() && shaded.name == part->name() &&
+                part->values().choice("mode") != shaded.mode)
+                return "the part " + std::string(kindName(part->kind())) + " '" + part->name() +
+                       "' with mode=" + part->values().choice("mode");
     const ParameterValues& life = parts.lifetime().values();
     if (life.real("per_speed") != 0 || vectorOf(life, "per_metre", spaceAxes) != glm::dvec3(0))
         return "a lifetime by speed or place";
@@ -190,7 +239,7 @@ StepValues stepValues(const PartList& parts, const Step& step, const Births& bir
     values.life.x = number(parts.lifetime(), "average_seconds");
     values.life.y = number(parts.lifetime(), "variation_seconds");
     setLook(values, parts, step);
-    setCone(values, *parts.velocity());
+    setVelocity(values, *parts.velocity());
     setEmitters(values, *parts.position(), emitters);
     const scene::Terrain& terrain = step.scene.terrain;
     if (!terrain.isFlat()) {

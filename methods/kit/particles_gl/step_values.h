@@ -19,15 +19,16 @@ inline constexpr std::size_t maximumEmitters = 4, maximumForces = 16;
 struct StepValues {
     glm::uvec4 key{0};
     glm::uvec4 numbers{0};
+    glm::uvec4 kinds{0};
     glm::dvec2 births{0}, seconds{0};
     glm::vec4 radius{0}, opacity{0}, life{0};
     glm::vec4 colours[2]{};
     glm::vec4 colourCurves[3]{};
-    glm::vec4 source{0}, cone{0};
+    glm::vec4 source{0}, launch{0}, cone{0};
     glm::vec4 coneFrame[3]{};
     glm::vec4 from[maximumEmitters]{}, to[maximumEmitters]{}, velocityFrom[maximumEmitters]{},
         velocityTo[maximumEmitters]{}, forward[maximumEmitters]{}, up[maximumEmitters]{}, right[maximumEmitters]{};
-    glm::vec4 discFirst[maximumEmitters]{}, discSecond[maximumEmitters]{};
+    glm::vec4 sourceFirst[maximumEmitters]{}, sourceSecond[maximumEmitters]{};
     glm::vec4 ground{0};
     glm::ivec4 samples{0};
     glm::vec4 forces[4 * maximumForces]{};
