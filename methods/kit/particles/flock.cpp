@@ -9,6 +9,7 @@ namespace {
 using lanes::Float16;
 using lanes::Int16;
 constexpr std::size_t gridBlock = 8192, flockBlock = 512, flockLanes = 16;
+constexpr double densePoints = 16;
 constexpr Int16 laneNumbers{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
 /// FlockSums of 16 neighbours at a time; velocities of the neighbours, not relative.
@@ -23,6 +24,8 @@ using FlockColumns = std::array<std::vector<float>, 6>;
     return mask ? value : Float16{};
 }
 
+/// `hasNear`: false only if no point of the run is near.
+template <bool hasNear>
 [[gnu::always_inline]] inline void addRun(const FlockColumns& c, const PointGrid::Run& run, const glm::vec3& self,
                                           float near2, float reach2, LaneSums& s) {
     for (std::uint32_t k = run.first; k < run.end; k += flockLanes) {
@@ -30,11 +33,13 @@ using FlockColumns = std::array<std::vector<float>, 6>;
                       z = lanes::load<Float16>(&c[2][k]) - self.z;
         const Float16 squared = x * x + y * y + z * z;
         const Int16 sees = (squared < reach2) & (squared > 0.0f) & (laneNumbers < static_cast<int>(run.end - k));
-        const Int16 isNear = sees & (squared < near2);
-        const Float16 inverse = 1.0f / squared;
-        s.apartX -= where(isNear, x * inverse);
-        s.apartY -= where(isNear, y * inverse);
-        s.apartZ -= where(isNear, z * inverse);
+        if constexpr (hasNear) {
+            const Int16 isNear = sees & (squared < near2);
+            const Float16 inverse = 1.0f / squared;
+            s.apartX -= where(isNear, x * inverse);
+            s.apartY -= where(isNear, y * inverse);
+            s.apartZ -= where(isNear, z * inverse);
+        }
         s.offsetX += where(sees, x);
         s.offsetY += where(sees, y);
         s.offsetZ += where(sees, z);
@@ -76,8 +81,12 @@ void PointGrid::chooseCells(std::span<const float> x, std::span<const float> y, 
     }
     minimum_ = low;
     const double most = 4 * static_cast<double>(x.size()) + 64;
-    double edge = static_cast<double>(reachMetres) / 2;
     const glm::dvec3 extent(high - low);
+    const auto reach = static_cast<double>(reachMetres);
+    // Few points in a cube of the reach: larger cells give fewer and longer runs. Many: smaller ones hold fewer others.
+    const glm::dvec3 cubes = glm::max(extent / reach, 1.0);
+    const bool dense = static_cast<double>(x.size()) > densePoints * cubes.x * cubes.y * cubes.z;
+    double edge = dense ? reach / 2 : reach;
     const auto cellsAt = [&] { return glm::floor(extent / edge) + 1.0; };
     for (glm::dvec3 cells = cellsAt(); cells.x * cells.y * cells.z > most && edge < 1e30; cells = cellsAt())
         edge *= 1.25;
@@ -132,8 +141,12 @@ void Flock::accelerate(const FlockRules& rules, const FlockState& s, std::span<g
         for (std::size_t place = first; place < first + count; ++place) {
             const glm::vec3 self(columns_[0][place], columns_[1][place], columns_[2][place]);
             LaneSums sums;
-            grid_.forEachRun(self,
-                             [&](const PointGrid::Run& run) { addRun(columns_, run, self, near2, reach2, sums); });
+            grid_.forEachRun(self, [&](const PointGrid::Run& run) {
+                if (run.away2 < near2)
+                    addRun<true>(columns_, run, self, near2, reach2, sums);
+                else
+                    addRun<false>(columns_, run, self, near2, reach2, sums);
+            });
             const glm::vec3 velocity(columns_[3][place], columns_[4][place], columns_[5][place]);
             accelerations[grid_.order()[place]] = total(sums, velocity).acceleration(rules);
         }

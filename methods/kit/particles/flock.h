@@ -3,11 +3,11 @@
 //     a_i = s·Σ_near (x_i − x_j)/d²  +  m·(mean v_j − v_i)  +  c·(mean x_j − x_i)
 //           separation, d < near        matching, d < sight     cohesion, d < sight
 //
-// The grid orders points by cells, cubes with an edge of half the reach or more. Cells next to each other along x are
-// contiguous, so that the neighbours of a point are in one run of points for each row of cells that a ball of this
-// radius meets: at most 25. Within a cell, points keep the order in which they were given. Boids are copied in the
-// order of the cells, a column for each coordinate, so that neighbours are contiguous: 16 at a time, whatever the
-// machine's registers, so that every build gives the same sums.
+// The grid orders points by cells, cubes with an edge of the reach, or of half of it where points are dense, or more.
+// Cells next to each other along x are contiguous, so that the neighbours of a point are in one run of points for each
+// row of cells that a ball of this radius meets: at most 9, or 25 of the small ones. Within a cell, points keep the
+// order in which they were given. Boids are copied in the order of the cells, a column for each coordinate, so that
+// neighbours are contiguous: 16 at a time, whatever the machine's registers, so that every build gives the same sums.
 //
 // Units: m, m/s, m/s². Owns: grid and columns. Threads: one, with the current oneTBB arena; const members of the grid
 // by any. Every boid sums its neighbours in the order of the grid, so that results are the same for any number of
@@ -31,6 +31,7 @@ class PointGrid {
     /// Points `first` to `end` in the order of the cells.
     struct Run {
         std::uint32_t first, end;
+        float away2;  ///< they are at least this far away: m², across the run
     };
 
     /// Replaces the points. If they are spread so far that cells would outnumber them by far, cells are larger.
@@ -80,7 +81,8 @@ void PointGrid::forEachRun(const glm::vec3& point, const Action& action) const {
             const float half = std::sqrt(left2);
             const int line = cells_.x * (row + cells_.y * layer);
             const Run run{begin_[static_cast<std::size_t>(line + cellAlong(point.x - half, 0))],
-                          begin_[static_cast<std::size_t>(line + cellAlong(point.x + half, 0)) + 1]};
+                          begin_[static_cast<std::size_t>(line + cellAlong(point.x + half, 0)) + 1],
+                          upwards * upwards + sideways * sideways};
             if (run.first < run.end) action(run);
         }
     }
