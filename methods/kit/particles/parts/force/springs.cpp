@@ -103,7 +103,9 @@ void PositionStep::begin(const SpringNumbers& numbers, const LatticeLinks& links
 void PositionStep::meet(const MetSurfaces& surfaces, double h, float leftSeconds, ParticleStore& store,
                         const Fates& fates) {
     parallel::forEachBlock(points_.size(), chunkSize, [&](std::size_t first, std::size_t count) {
-        WayBegins begins{};
+        WayBegins begins;
+        for (auto* column : {&begins.x, &begins.y, &begins.z}) column->fill(0);  // or GCC 14 warns
+        begins.seconds.fill(static_cast<float>(h));
         std::array<std::array<float, chunkSize>, 6> moved;
         Chunk chunk;
         chunk.count = count;
@@ -119,7 +121,6 @@ void PositionStep::meet(const MetSurfaces& surfaces, double h, float leftSeconds
             const Point& p = points_[first + i];
             const glm::vec3 from(p.before), to(p.x), v(p.velocity);
             begins.x[i] = from.x, begins.y[i] = from.y, begins.z[i] = from.z;
-            begins.seconds[i] = static_cast<float>(h);
             chunk.x[i] = to.x, chunk.y[i] = to.y, chunk.z[i] = to.z;
             chunk.velocityX[i] = v.x, chunk.velocityY[i] = v.y, chunk.velocityZ[i] = v.z;
         }
