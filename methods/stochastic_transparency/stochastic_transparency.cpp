@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 
+#include "gpu_shaders.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/draw/cost_facts.h"
 #include "stochastic_transparency_shaders.h"
@@ -28,7 +29,8 @@ void StochasticTransparency::prepare(const scene::Scene&, const RunSetup& setup,
     sums_.emplace(device, "seen colours", std::vector<gpu::Format>{gpu::Format::rgba32F, gpu::Format::r32F});
     average_.emplace(device);
     depths_ = draw::puffPass("sample depths",
-                             {shaders::stochastic_surface_glsl, shaders::random_mask_glsl, shaders::sample_depths_frag},
+                             {shaders::stochastic_surface_glsl, gpu_shaders::philox_glsl, shaders::random_mask_glsl,
+                              shaders::sample_depths_frag},
                              definitionsOf(settings_));
     colours_ = draw::puffPass("seen colours", {shaders::stochastic_surface_glsl, shaders::seen_colours_frag},
                               definitionsOf(settings_));

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "gpu_shaders.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/gpu/buffer.h"
 #include "methods/kit/gpu/program.h"
@@ -105,7 +106,10 @@ struct Room {
 gpu::Program dustProgram(gpu::Device& device, const gpu::ShaderFile& file, bool coloured) {
     std::map<std::string, std::string> definitions;
     if (coloured) definitions["COLOURED"] = "";
-    return {device, file.name, {shaders::step_glsl, shaders::random_glsl, shaders::parts_glsl, file}, definitions};
+    return {device,
+            file.name,
+            {gpu_shaders::philox_glsl, shaders::step_glsl, shaders::random_glsl, shaders::parts_glsl, file},
+            definitions};
 }
 
 }  // namespace

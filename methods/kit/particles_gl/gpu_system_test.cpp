@@ -65,8 +65,7 @@ void expectEqual(Pair& pair, const std::string& when) {
     for (std::size_t i = 0; i < cpu.size(); ++i) {
         ASSERT_NEAR(gpu.opacity[i], cpu.opacity[i], 1e-6) << when;
         ASSERT_NEAR(gpu.radius[i], cpu.radius[i], 1e-6f * cpu.radius[i]) << when;
-        for (int channel = 0; channel < 3; ++channel)
-            ASSERT_NEAR(gpu.colour(i)[channel], cpu.colour(i)[channel], 1e-6) << when;
+        ASSERT_EQ(gpu.colour(i), cpu.colour(i)) << when;
     }
     ASSERT_LE(gpu.size(), pair.gpu.buffers().bound) << when;
 }

@@ -1,22 +1,10 @@
-// Random numbers and sampling with the same bits as on the CPU: kit/maths/philox.h, sine.h and sampling.h.
+// Random numbers and sampling with the same bits as on the CPU: kit/gpu/philox.glsl, kit/maths/fast_functions.h and
+// sampling.h.
 //
 // Source: Salmon2011, sections 3.3 and 5.
 
-/// Philox4x32-10.
-uvec4 randomWords(uint stream, uvec2 serial, uint draw) {
-    uvec4 counter = uvec4(serial, stream, draw);
-    uvec2 bumped = key.xy;
-    for (int n = 0; n < 10; ++n) {
-        uint high0, low0, high1, low1;
-        umulExtended(0xD2511F53u, counter.x, high0, low0);
-        umulExtended(0xCD9E8D57u, counter.z, high1, low1);
-        counter = uvec4(high1 ^ counter.y ^ bumped.x, low1, high0 ^ counter.w ^ bumped.y, low0);
-        bumped += uvec2(0x9E3779B9u, 0xBB67AE85u);
-    }
-    return counter;
-}
 vec4 uniform4(uint stream, uvec2 serial, uint draw) {
-    return vec4(randomWords(stream, serial, draw) >> 8) * (1.0 / 16777216.0);
+    return vec4(philox(key.xy, uvec4(serial, stream, draw)) >> 8) * (1.0 / 16777216.0);
 }
 vec4 uniform4(uint stream, uvec2 serial) { return uniform4(stream, serial, 0u); }
 float centred(float u) {

@@ -15,6 +15,11 @@
 namespace dustbench::particles {
 namespace {
 
+/// The kinds of parts.glsl.
+enum SourceKind : std::uint32_t { pointSource, discSource, rectangleSource, lineSource, ballSource };
+enum VelocityKind : std::uint32_t { coneVelocity, randomVelocity, fixedVelocity };
+enum SizeKind : std::uint32_t { sizeByAge, randomSize };
+
 struct ShadedPart {
     PartKind kind;
     std::string_view name;
@@ -69,7 +74,7 @@ void setLook(StepValues& values, const PartList& parts, const Step& step) {
         values.radius.x = number(size, "start_metres"),
         values.radius.y = number(size, "end_metres") - number(size, "start_metres");
     else if (size.name() == "random")
-        values.kinds.z = 1, values.radius.x = number(size, "average_metres"),
+        values.kinds.z = randomSize, values.radius.x = number(size, "average_metres"),
         values.radius.y = number(size, "variation_metres");
     else
         values.radius.x = number(size, "radius_metres");
@@ -106,11 +111,11 @@ void setVelocity(StepValues& values, const Part& velocity) {
     values.launch.x = number(velocity, "speed");
     values.launch.z = number(velocity, "variation");
     if (velocity.name() == "random") {
-        values.kinds.y = 1;
+        values.kinds.y = randomVelocity;
         return;
     }
     if (velocity.name() == "fixed") {
-        values.kinds.y = 2;
+        values.kinds.y = fixedVelocity;
         values.coneFrame[0] = withW(directionOf(velocity.values(), "direction"));
         return;
     }
@@ -134,19 +139,19 @@ maths::Tangents setSource(StepValues& values, const Part& position) {
         if (const glm::vec3 normal = directionOf(position.values(), "normal"); normal != glm::vec3(0, 1, 0))
             axes = maths::tangentsOf(normal);
     if (name == "disc") {
-        values.kinds.x = 1;
+        values.kinds.x = discSource;
         values.source.x = number(position, "radius_metres");
     } else if (name == "rectangle") {
-        values.kinds.x = 2;
+        values.kinds.x = rectangleSource;
         values.source.x = number(position, "length_metres");
         values.source.y = number(position, "width_metres");
     } else if (name == "line") {
-        values.kinds.x = 3;
+        values.kinds.x = lineSource;
         values.source.x = number(position, "length_metres");
         values.source.y = position.values().choice("base") == "middle" ? -0.5f : 0.0f;
         axes.first = directionOf(position.values(), "direction");
     } else if (name == "sphere") {
-        values.kinds.x = 4;
+        values.kinds.x = ballSource;
         values.source.x = number(position, "radius_metres");
     }
     return axes;

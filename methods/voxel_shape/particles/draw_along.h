@@ -65,7 +65,7 @@ class DustFlow {
     LedgerVector<Node> nodes_;
 };
 
-/// The velocity u of the flow at a point of the world; empty where there is no flow. Threads: any.
+/// The flow's velocity u at a point in the world; empty outside the flow. Threads: any.
 using Flow = std::function<std::optional<glm::vec3>(const glm::vec3&)>;
 
 /// A field at a time of its series: trilinear in space and linear in time, none outside its grid. Valid as long as the
