@@ -22,7 +22,7 @@ void DrawPace::note(const PacedFrame& frame) {
     if (!std::isfinite(frame.wholeMs) || !(frame.wholeMs > 0)) return;
     const double draw = std::isfinite(frame.drawMs) ? std::clamp(frame.drawMs, 0.0, frame.wholeMs) : 0;
     if (frames_.size() == framesToRaise) frames_.erase(frames_.begin());
-    frames_.push_back({frame.wholeMs, draw});
+    frames_.push_back({frame.wholeMs, draw, frame.shown});
     if (frames_.size() < framesToLower) return;
     if (const PacedFrame recent = medianOfLast(framesToLower); recent.wholeMs > limitMs) return go(smallerStep(recent));
     if (frames_.size() < framesToRaise || step_ == 0) return;
@@ -30,17 +30,18 @@ void DrawPace::note(const PacedFrame& frame) {
 }
 
 PacedFrame DrawPace::medianOfLast(std::size_t count) const {
-    std::vector<double> whole, draw;
+    std::vector<double> whole, draw, shown;
     for (const PacedFrame& frame : std::span(frames_).last(count)) {
         whole.push_back(frame.wholeMs);
         draw.push_back(frame.drawMs);
+        shown.push_back(frame.shown);
     }
-    return {measure::median(whole), measure::median(draw)};
+    return {measure::median(whole), measure::median(draw), measure::median(shown)};
 }
 
 double DrawPace::predictedMs(const PacedFrame& frame, std::size_t step) const {
-    const double scale = shares[step] / shares[step_];
-    return frame.wholeMs - frame.drawMs + frame.drawMs * scale * scale;
+    const auto pixels = [&](std::size_t of) { return shares[of] * shares[of] * (of > 0 ? frame.shown : 1); };
+    return frame.wholeMs - frame.drawMs + frame.drawMs * pixels(step) / pixels(step_);
 }
 
 /// The largest size that keeps the pace, or the smallest if none does; the current one if little would be gained.

@@ -1,9 +1,9 @@
-// Chooses how large the window draws its halves to keep 15 frames per second, from the times of its frames alone.
+// Chooses how the window draws its halves to keep 15 frames per second, from the times of its frames alone: first only
+// the visible parts, then smaller.
 //
-// The model: the cost of drawing is proportional to the number of pixels, and the rest of a frame costs the same at any
-// size:
+// The model: the cost of drawing is proportional to the number of pixels n, and the rest of a frame costs the same:
 //
-//     T(s') = T − D + D·(s'/s)²
+//     T(n') = T − D + D·n'/n
 //
 // If a part of D does not shrink, the prediction is too low for a smaller size and too high for a larger one. So a size
 // that was too slow is not chosen again while the costs stay the same.
@@ -24,17 +24,20 @@ inline constexpr double pacedFramesPerSecond = 15;
 struct PacedFrame {
     double wholeMs = 0;  ///< T
     double drawMs = 0;   ///< D, of both halves
+    double shown = 1;    ///< share of the halves' pixels that is shown
 };
 
 class DrawPace {
  public:
-    static constexpr std::array<double, 7> shares{1, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2};
+    /// The first is of whole pictures, the others of their visible parts.
+    static constexpr std::array<double, 8> shares{1, 1, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2};
     /// Number of frames whose median makes the size smaller, or larger: a single slow frame changes nothing.
     static constexpr std::size_t framesToLower = 8, framesToRaise = 30;
 
-    /// Adds a frame that was drawn at share(). Invalid times are ignored.
+    /// Adds a frame that was drawn as asked for. Invalid times are ignored.
     void note(const PacedFrame& frame);
     [[nodiscard]] double share() const { return shares[step_]; }
+    [[nodiscard]] bool drawsOnlyShown() const { return step_ > 0; }
 
  private:
     [[nodiscard]] PacedFrame medianOfLast(std::size_t count) const;

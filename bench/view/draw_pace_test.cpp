@@ -10,17 +10,18 @@ namespace {
 
 constexpr double limitMs = 1000 / pacedFramesPerSecond;
 
-/// The cost of a frame at a share of the size: T = fixed + perFrame + perPixel·s². The last two are drawing.
+/// The cost of a frame at a share of the size: T = fixed + perFrame + perPixel·s². The last two are drawing, of which
+/// only `shown` can be drawn.
 struct Costs {
-    double fixed, perFrame, perPixel;
-    [[nodiscard]] PacedFrame at(double share) const {
-        const double draw = perFrame + perPixel * share * share;
-        return {fixed + draw, draw};
+    double fixed, perFrame, perPixel, shown = 1;
+    [[nodiscard]] PacedFrame at(double share, bool onlyShown = false) const {
+        const double draw = perFrame + perPixel * share * share * (onlyShown ? shown : 1);
+        return {fixed + draw, draw, shown};
     }
 };
 
 void note(DrawPace& pace, const Costs& costs, int frames) {
-    for (int n = 0; n < frames; ++n) pace.note(costs.at(pace.share()));
+    for (int n = 0; n < frames; ++n) pace.note(costs.at(pace.share(), pace.drawsOnlyShown()));
 }
 
 TEST(DrawPace, KeepsTheFullSizeWhereThereIsTime) {
@@ -37,6 +38,21 @@ TEST(DrawPace, LowersToTheLargestSizeThatKeepsThePace) {
     EXPECT_EQ(pace.share(), 0.6);  // 10 + 100·0.64 = 74 is too slow, 10 + 100·0.36 = 46 is not
     note(pace, {10, 0, 100}, 1000);
     EXPECT_EQ(pace.share(), 0.6);
+}
+
+TEST(DrawPace, DrawsOnlyWhatIsShownBeforeItLowersTheSize) {
+    DrawPace pace;
+    note(pace, {10, 0, 90, 0.5}, static_cast<int>(DrawPace::framesToLower) - 1);
+    EXPECT_FALSE(pace.drawsOnlyShown());
+    note(pace, {10, 0, 90, 0.5}, 1000);
+    EXPECT_TRUE(pace.drawsOnlyShown());
+    EXPECT_EQ(pace.share(), 1);  // 10 + 90·0.5 = 55
+    note(pace, {10, 0, 120, 0.5}, 1000);
+    EXPECT_EQ(pace.share(), 0.8);  // 10 + 120·0.5 = 70 is too slow, 10 + 60·0.64 = 48 is not
+    note(pace, {10, 0, 120, 1}, 1000);
+    EXPECT_EQ(pace.share(), 0.6);  // both pictures are seen whole again
+    note(pace, {5, 1, 20}, 1000);
+    EXPECT_FALSE(pace.drawsOnlyShown());
 }
 
 TEST(DrawPace, ASlowFrameNowAndThenChangesNothing) {

@@ -68,6 +68,15 @@ std::vector<float> flat(const pictures::Image& image) {
 
 }  // namespace
 
+PictureParts shownParts(const SplitSettings& settings) {
+    const PicturePart both{settings.origin, settings.origin + settings.extent};
+    if (settings.shown == Shown::difference || settings.shown == Shown::flip || settings.shown == Shown::sideBySide)
+        return {both, both};
+    PictureParts parts{both, both};
+    parts[0].to.x = parts[1].from.x = settings.origin.x + settings.extent.x * dividerOf(settings);
+    return parts;
+}
+
 SplitView::SplitView(gpu::Device& device)
     : program_(device, "split view", {bench_view_shaders::split_view_vert, bench_view_shaders::split_view_frag}),
       noVertices_(device) {}

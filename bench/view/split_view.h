@@ -4,6 +4,7 @@
 // visible. Pictures with fewer rows than the target are interpolated. Threads: the device's.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "methods/contract/choices.h"
@@ -47,6 +48,19 @@ struct SplitSettings {
 
     friend bool operator==(const SplitSettings&, const SplitSettings&) = default;
 };
+
+/// A rectangle of a picture, in shares.
+struct PicturePart {
+    glm::vec2 from{0}, to{1};
+    [[nodiscard]] bool isEmpty() const { return !(from.x < to.x && from.y < to.y); }
+    [[nodiscard]] double area() const { return isEmpty() ? 0 : static_cast<double>((to.x - from.x) * (to.y - from.y)); }
+
+    friend bool operator==(const PicturePart&, const PicturePart&) = default;
+};
+/// Of A and of B.
+using PictureParts = std::array<PicturePart, 2>;
+/// What the settings show of each picture.
+[[nodiscard]] PictureParts shownParts(const SplitSettings& settings);
 
 /// The textures that a half has drawn, all of the same size.
 struct HalfTextures {

@@ -218,20 +218,28 @@ void ViewSession::step() {
     if (groundTruth_.host && frame() >= -state_.warmup - 1) updateHalf(groundTruth_);
 }
 
-void ViewSession::draw(const results::ImageSize& size) {
+void ViewSession::draw(const results::ImageSize& size, const PictureParts& parts) {
     resizeHosts(size);
-    for (ShownHalf& shown : halves_) {
+    for (const Half half : {Half::a, Half::b}) {
+        ShownHalf& shown = halves_.at(indexOf(half));
         if (!shown.host) continue;
         recorder_.clear();
-        const StageClock clock(&recorder_);
-        shown.host->draw(shown.host->see(frame(), clock));
+        drawPart(shown, parts.at(indexOf(half)), StageClock(&recorder_));
         shown.cost.draw = recordedMs();
     }
-    if (groundTruth_.host) {
-        const StageClock untimed;
-        groundTruth_.host->draw(groundTruth_.host->see(frame(), untimed));
-    }
+    if (groundTruth_.host) drawPart(groundTruth_, parts.at(indexOf(Half::b)), StageClock());
     noteDrawn();
+    drawnParts_ = parts;
+}
+
+void ViewSession::drawPart(ShownHalf& shown, const PicturePart& part, const StageClock& clock) {
+    if (part.isEmpty()) return;
+    constexpr int border = 16;  // pixels: methods may look at neighbours
+    const glm::ivec2 size(drawnSize_.width, drawnSize_.height);
+    const glm::ivec2 from = glm::max(glm::ivec2(glm::floor(part.from * glm::vec2(size))) - border, glm::ivec2(0));
+    const glm::ivec2 to = glm::min(glm::ivec2(glm::ceil(part.to * glm::vec2(size))) + border, size);
+    const gpu::DrawnPart limited(size.x, size.y, from.x, from.y, to.x - from.x, to.y - from.y);
+    shown.host->draw(shown.host->see(frame(), clock));
 }
 
 void ViewSession::resizeHosts(const results::ImageSize& size) {
@@ -244,6 +252,7 @@ void ViewSession::resizeHosts(const results::ImageSize& size) {
 void ViewSession::noteDrawn() {
     drawnMoment_ = moment_;
     drawnFrame_ = frame();
+    drawnParts_ = {};
 }
 
 void ViewSession::drawExact() {

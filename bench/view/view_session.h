@@ -85,10 +85,12 @@ class ViewSession {
     [[nodiscard]] std::int64_t stepsToGo() const { return std::max<std::int64_t>(state_.frame - frame(), 0); }
 
     /// Draws every method at the state's size or at `size`. The pictures are valid until the next call or set().
+    /// Outside of `parts` their pixels are undefined; a half with an empty part is not drawn.
     void draw() { draw(state_.size); }
-    void draw(const results::ImageSize& size);
-    /// Size of the last draw().
+    void draw(const results::ImageSize& size, const PictureParts& parts = {});
+    /// Size and parts of the last draw().
     [[nodiscard]] results::ImageSize drawnSize() const { return drawnSize_; }
+    [[nodiscard]] const PictureParts& drawnParts() const { return drawnParts_; }
     /// Draws the ground truth of the world's current state, and the methods, at the state's size. Half B must be the
     /// ground truth.
     void drawExact();
@@ -152,6 +154,7 @@ class ViewSession {
     void updateHalf(ShownHalf& shown);
     void makeGroundTruth(const ViewState& state);
     void resizeHosts(const results::ImageSize& size);
+    void drawPart(ShownHalf& shown, const PicturePart& part, const StageClock& clock);
     void noteDrawn();
     [[nodiscard]] StageMs recordedMs() const;
 
@@ -168,6 +171,7 @@ class ViewSession {
     std::int64_t moment_ = 0, drawnMoment_ = -1, exactMoment_ = -1;
     std::int64_t drawnFrame_ = 0;
     results::ImageSize drawnSize_;
+    PictureParts drawnParts_;
     measure::StageRecorder recorder_;
     double worldMs_ = 0;
 };

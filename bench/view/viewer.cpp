@@ -255,8 +255,12 @@ void Viewer::makeFrame(double secondsForPreroll) {
         FrameCost& cost = costs_.back();
         const double wholeMs = static_cast<double>(start - frameStart_) / 1e6;
         cost.window = wholeMs - cost.methodsMs();
-        if (wasPaced_ && session_.drawnSize() == shareOf(session_.state().size, drawShare))
-            paced_ = PacedFrame{wholeMs, sum(cost.halves[0].draw) + sum(cost.halves[1].draw)};
+        const PictureParts parts = shownParts(composed_);
+        if (wasPaced_ && session_.drawnSize() == shareOf(session_.state().size, drawShare) &&
+            session_.drawnParts() == (drawsOnlyShown ? parts : PictureParts{}))
+            paced_ =
+                PacedFrame{wholeMs, sum(cost.halves[0].draw) + sum(cost.halves[1].draw),
+                           session_.hasHost(Half::b) ? 0.5 * (parts[0].area() + parts[1].area()) : parts[0].area()};
     }
     frameStart_ = start;
     const bool isPreroll = session_.stepsToGo() > 0;

@@ -91,9 +91,10 @@ class Viewer {
     [[nodiscard]] std::span<const FrameCost> costs() const { return costs_; }
     static constexpr std::size_t keptFrames = 120;
 
-    /// The last complete frame for DrawPace, once, if it was drawn at drawShare.
+    /// The last complete frame for DrawPace, once, if it was drawn as drawShare and drawsOnlyShown ask for.
     [[nodiscard]] std::optional<PacedFrame> takePaced() { return std::exchange(paced_, {}); }
-    /// `drawn at 480x360 of 800x600 to keep 15 frames per second`; empty at full size.
+    /// `drawn at 480x360 of 800x600, where it is shown, to keep 15 frames per second`; empty for whole pictures at full
+    /// size.
     [[nodiscard]] std::string drawnRemark() const;
 
     /// Sets the function that is called after every frame, and when one fails. By default it asks the driver.
@@ -118,10 +119,12 @@ class Viewer {
     bool exactEveryFrame = false;  ///< otherwise the ground truth with metrics is drawn only when nothing moves
     int slowness = 1;              ///< frames of the window per step of the world: one of `slownesses`
     bool drawingPaused = false;    ///< the world continues; a frame is drawn only when state or view changes
-    /// While something moves, the halves are drawn at `drawShare` of width and height (draw_pace.h) and scaled up. When
-    /// nothing moves, and for metrics, maps and saved pictures, they are drawn at full size.
+    /// While something moves, the halves are drawn at `drawShare` of width and height (draw_pace.h) and scaled up, or
+    /// only where they are shown. When nothing moves, and for metrics, maps and saved pictures, they are drawn whole
+    /// and at full size.
     bool keepsPace = false;
     double drawShare = 1;
+    bool drawsOnlyShown = false;
     bool paused = false, showsPanels = true, showsHelp = false;
     bool walksPanel = false;  ///< the arrow keys control the panel
 
@@ -141,6 +144,7 @@ class Viewer {
     [[nodiscard]] bool isPaced() const;
     [[nodiscard]] bool nothingMoves() const { return paused && !session_.isBehind(); }
     [[nodiscard]] results::ImageSize sizeNow() const;
+    [[nodiscard]] PictureParts partsNow() const;
     void noteCost(bool wasStepped, bool wasDrawn);
     void drawExact();
     void compose(const SplitSettings& settings);

@@ -37,6 +37,7 @@ class Paced : public testing::Test {
     }
     [[nodiscard]] results::ImageSize drawn() const { return viewer_->session().drawnSize(); }
     [[nodiscard]] pictures::Image shown() const { return draw::readBack(viewer_->image()); }
+    [[nodiscard]] std::vector<glm::vec4> shownImage() const { return shown().pixels; }
 
     /// A lowered picture, bilinear at the centre of pixel (x, y) of the full one.
     static glm::vec4 interpolated(const pictures::Image& small, int x, int y) {
@@ -75,6 +76,68 @@ TEST_F(Paced, ALoweredHalfIsScaledUpToTheViewAndSaysSo) {
     viewer_->advance();
     EXPECT_EQ(drawn(), full);
     EXPECT_EQ(viewer_->drawnRemark(), "");
+}
+
+/// Of every method: what is shown is equal to the last bit, and the rest of the pictures is drawn when it is to be
+/// seen.
+TEST_F(Paced, OnlyWhatIsShownIsDrawnAndIsTheSame) {
+    for (const MethodInfo& method : methods()) {
+        ViewState state;
+        state.size = full;
+        state.world = {{"particles", "300"}, {"preroll", "0.3"}};
+        state.a.method = method.id;
+        state.b = HalfState{"billboard", {}};
+        std::unique_ptr<Viewer> whole;
+        try {
+            viewer_ = std::make_unique<Viewer>(state, device_, folder_.path());
+            whole = std::make_unique<Viewer>(state, device_, folder_.path());
+        } catch (const InputError&) {
+            continue;  // not in this scene
+        }
+        viewer_->keepsPace = viewer_->drawsOnlyShown = true;
+        for (int n = 0; n < 3; ++n) viewer_->advance(1e9), whole->advance(1e9);
+        for (const Shown shown : {Shown::wipe, Shown::b, Shown::sideBySide, Shown::difference, Shown::a}) {
+            SplitSettings settings;
+            settings.shown = shown;
+            settings.divider = 0.3f;
+            if (shown == Shown::difference) settings.origin = {0.1f, 0.2f}, settings.extent = {0.5f, 0.5f};
+            viewer_->split = whole->split = settings;
+            viewer_->advance();
+            whole->advance();
+            EXPECT_EQ(shownImage(), draw::readBack(whole->image()).pixels)
+                << method.id << ' ' << shownChoices.wordOf(shown);
+            const bool isWhole = shown == Shown::sideBySide;
+            EXPECT_EQ(viewer_->drawnRemark(),
+                      isWhole ? "" : "drawn only where it is shown to keep 15 frames per second");
+        }
+        const auto isBlank = [&](Half half) {
+            const pictures::Image image = draw::readBack(viewer_->session().picture(half));
+            return std::ranges::all_of(image.pixels, [&](const glm::vec4& p) { return p == image.pixels.front(); });
+        };
+        viewer_->paused = true;
+        viewer_->advance();
+        EXPECT_EQ(viewer_->drawnRemark(), "") << method.id;
+        EXPECT_FALSE(isBlank(Half::b)) << method.id;
+    }
+}
+
+TEST_F(Paced, WhatIsNotShownIsNotDrawn) {
+    open(methods().front().id, "billboard");
+    viewer_->keepsPace = viewer_->drawsOnlyShown = true;
+    viewer_->split.divider = 0.25f;
+    const pictures::Image before = draw::readBack(viewer_->session().picture(Half::a));
+    for (int n = 0; n < 10; ++n) viewer_->advance();
+    const pictures::Image after = draw::readBack(viewer_->session().picture(Half::a));
+    int changedShown = 0, changedHidden = 0;  // 16 columns beyond the divider at 20 may have changed
+    for (int y = 0; y < full.height; ++y)
+        for (int x = 0; x < full.width; ++x)
+            (x < 20 ? changedShown : x >= 36 ? changedHidden : changedShown) += before.at(x, y) != after.at(x, y);
+    EXPECT_GT(changedShown, 0);
+    EXPECT_EQ(changedHidden, 0);
+    viewer_->split.shown = Shown::b;
+    viewer_->advance();
+    EXPECT_EQ(sum(viewer_->costs().back().halves[0].draw), 0);
+    EXPECT_GT(sum(viewer_->costs().back().halves[1].draw), 0);
 }
 
 TEST_F(Paced, EveryMethodDrawsTheSamePictureAfterwards) {

@@ -56,12 +56,13 @@ void Viewer::makeImage(Shown shown) {
 bool Viewer::draw() {
     const bool lacksExact = session_.isExact(Half::b) && !session_.isEvaluated() && paused;
     const results::ImageSize size = sizeNow();
-    const bool isAsked =
-        mustDraw_ || exactAsked_ || lacksExact || !(settingsNow() == composed_) || !(size == session_.drawnSize());
-    const bool isDone = keepsPace && drawShare < 1 && nothingMoves();
+    const PictureParts parts = partsNow();
+    const bool isAsked = mustDraw_ || exactAsked_ || lacksExact || !(settingsNow() == composed_) ||
+                         !(size == session_.drawnSize()) || !(parts == session_.drawnParts());
+    const bool isDone = keepsPace && (drawShare < 1 || drawsOnlyShown) && nothingMoves();
     if ((drawingPaused || isDone) && !isAsked) return false;
     mustDraw_ = false;
-    session_.draw(size);
+    session_.draw(size, parts);
     attempt([&] { drawExact(); });
     attempt([&] { compose(settingsNow()); });
     return true;
@@ -80,17 +81,23 @@ results::ImageSize Viewer::sizeNow() const {
     return isPaced() && !nothingMoves() ? shareOf(full, drawShare) : full;
 }
 
+PictureParts Viewer::partsNow() const {
+    return drawsOnlyShown && isPaced() && !nothingMoves() ? shownParts(settingsNow()) : PictureParts{};
+}
+
 void Viewer::drawAtFullSize() {
-    if (session_.drawnSize() == session_.state().size) return;
+    if (session_.drawnSize() == session_.state().size && session_.drawnParts() == PictureParts{}) return;
     session_.draw();
     compose(settingsNow());
 }
 
 std::string Viewer::drawnRemark() const {
     const results::ImageSize drawn = session_.drawnSize(), full = session_.state().size;
-    if (drawn == full) return "";
-    return fmt::format("drawn at {}x{} of {}x{} to keep {} frames per second", drawn.width, drawn.height, full.width,
-                       full.height, pacedFramesPerSecond);
+    std::string how;
+    if (!(drawn == full)) how = fmt::format(" at {}x{} of {}x{}", drawn.width, drawn.height, full.width, full.height);
+    if (!(session_.drawnParts() == PictureParts{}))
+        how += how.empty() ? " only where it is shown" : ", where it is shown,";
+    return how.empty() ? "" : fmt::format("drawn{} to keep {} frames per second", how, pacedFramesPerSecond);
 }
 
 /// It may take seconds, so while the world or the camera moves, it is drawn only on request.

@@ -132,9 +132,9 @@ TEST_F(EveryWidget, EveryButtonActs) {
     click("Measure");
     viewer_->advance();
     EXPECT_THAT(viewer_->message(), HasSubstr("cannot start runs"));  // nothing was given to start them
-    click("Lower the resolution to keep 15 fps");
+    click("Draw less to keep 15 fps");
     EXPECT_TRUE(viewer_->keepsPace);
-    click("Lower the resolution to keep 15 fps");
+    click("Draw less to keep 15 fps");
     EXPECT_FALSE(viewer_->keepsPace);
     click("Help");
     frames(2);

@@ -131,7 +131,7 @@ void ViewerPanels::showPace(Viewer& viewer) {
     ImGui::SameLine();
     bool isDrawn = !viewer.drawingPaused;
     if (showSwitch("Drawing", isDrawn, widgets_)) viewer.drawingPaused = !isDrawn;
-    showSwitch("Lower the resolution to keep 15 fps", viewer.keepsPace, widgets_);
+    showSwitch("Draw less to keep 15 fps", viewer.keepsPace, widgets_);
     if (const std::string remark = viewer.drawnRemark(); !remark.empty()) showRemark(remark);
 }
 

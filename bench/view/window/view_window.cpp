@@ -301,6 +301,7 @@ class Loop {
         viewer_.advance();
         if (const auto paced = viewer_.takePaced()) pace_.note(*paced);
         viewer_.drawShare = pace_.share();
+        viewer_.drawsOnlyShown = pace_.drawsOnlyShown();
         const std::string clipboard = panels_.canvas().clipboard();
         showPanels(reported_.input);
         if (panels_.canvas().clipboard() != clipboard)

@@ -12,6 +12,17 @@
 
 namespace dustbench::gpu {
 
+/// While it exists, draws into framebuffers with a colour and the size width × height change only a rectangle of
+/// pixels, counted from the lower left corner: what nobody sees needs no time. Clears and framebuffers of other sizes
+/// are whole. One at a time.
+class DUSTBENCH_API DrawnPart {
+ public:
+    DrawnPart(int width, int height, int left, int bottom, int columns, int rows);
+    ~DrawnPart();
+    DrawnPart(const DrawnPart&) = delete;
+    DrawnPart& operator=(const DrawnPart&) = delete;
+};
+
 class DUSTBENCH_API Framebuffer {
  public:
     Framebuffer() = default;
@@ -37,7 +48,7 @@ class DUSTBENCH_API Framebuffer {
     void complete(std::string_view label, const Texture& any);
 
     Name name_;
-    int colours_ = 1;
+    int colours_ = 1;  ///< 0: only a depth
     int width_ = 0;
     int height_ = 0;
 };

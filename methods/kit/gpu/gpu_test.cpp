@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <numeric>
@@ -208,6 +209,41 @@ TEST(Framebuffer, AddsToSeveralColoursAtOnce) {
     for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(first.readFloats()[i], 1 + 2 * static_cast<float>(i % 4 + 1));
     for (const float value : second.readFloats()) EXPECT_EQ(value, 2);
     EXPECT_THROW((Framebuffer(device, "none", std::span<const Texture* const>())), std::invalid_argument);
+}
+
+/// Draws change only the part, in framebuffers of its size; clears are whole, and so is everything once it is gone.
+TEST(DrawnPart, LimitsDrawsOfItsSizeAndNothingElse) {
+    Device device;
+    const Texture picture = Texture::make2D(device, "picture", Format::rgba32F, 8, 4);
+    const Texture other = Texture::make2D(device, "other", Format::rgba32F, 8, 5);
+    const Framebuffer target(device, "picture", &picture, nullptr), otherTarget(device, "other", &other, nullptr);
+    Program program(device, "fill", {coverVert, colourFrag});
+    program.set("depth", 0.5f);
+    const VertexArray vertices(device);
+    const auto fill = [&](const Framebuffer& framebuffer, float red) {
+        framebuffer.bind();
+        program.set("value", glm::vec4(red, 0, 0, 1));
+        draw(program, vertices, {}, Primitives::triangles, 3);
+    };
+    const auto count = [](const Texture& texture, float red) {
+        return std::ranges::count(channel(texture.readFloats(), 0), red);
+    };
+    {
+        const DrawnPart part(8, 4, 2, 1, 3, 2);
+        target.clearColour(0.25f, 0, 0, 1);
+        fill(target, 0.5f);
+        EXPECT_EQ(count(picture, 0.5f), 6);
+        EXPECT_EQ(count(picture, 0.25f), 26);
+        fill(otherTarget, 0.5f);
+        EXPECT_EQ(count(other, 0.5f), 40);
+        fill(target, 0.75f);
+        target.clearColour(0.125f, 0, 0, 1);
+        EXPECT_EQ(count(picture, 0.125f), 32);
+        fill(target, 0.5f);
+        EXPECT_EQ(count(picture, 0.5f), 6);
+    }
+    fill(target, 1);
+    EXPECT_EQ(count(picture, 1), 32);
 }
 
 TEST(Program, NamesTheFileThatDoesNotCompile) {
