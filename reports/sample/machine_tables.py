@@ -28,15 +28,23 @@ def machines():
     return sorted(found, key=lambda each: draws_on_the_cpu(each[1]))
 
 
+def measured(rows, method, size, load, column):
+    return [row for row in rows if row["status"] == "done" and row[column] and row["method"] == method
+            and (row["width"], row["height"]) == size and row["p.particles"] == load]
+
+
 def median(rows, method, size, load, column):
-    values = [float(row[column]) for row in rows if row["status"] == "done" and row[column] and row["method"] == method
-              and (row["width"], row["height"]) == size and row["p.particles"] == load]
+    values = [float(row[column]) for row in measured(rows, method, size, load, column)]
     return statistics.median(values) if values else None
 
 
-def shown(value):
-    """Three significant digits."""
-    return "" if value is None else format(value, ",.0f") if value >= 100 else format(value, "#.3g")
+def milliseconds(rows, method, load):
+    """Three significant digits, with a mark if the runs are invalid."""
+    value = median(rows, method, SIZE, load, "method_ms_median")
+    if value is None:
+        return ""
+    text = format(value, ",.0f") if value >= 100 else format(value, "#.3g")
+    return text + (" \\*" if any(row["invalid"] for row in measured(rows, method, SIZE, load, "method_ms_median")) else "")
 
 
 def table(rows):
@@ -48,8 +56,12 @@ def table(rows):
     methods = {row["method"] for row in rows if (row["width"], row["height"]) == SIZE and row["status"] == "done"}
     for method in sorted(methods, key=lambda method: (error(method) is None, error(method), method)):
         wrong = error(method)
-        cells = ["" if wrong is None else f"{wrong:.4f}"] + [shown(median(rows, method, SIZE, load, "method_ms_median")) for load in LOADS]
+        cells = ["" if wrong is None else f"{wrong:.4f}"] + [milliseconds(rows, method, load) for load in LOADS]
         lines.append(f"| `{method}` | " + " | ".join(cells) + " |")
+    invalid = [row for method in methods for load in LOADS for row in measured(rows, method, SIZE, load, "method_ms_median") if row["invalid"]]
+    counts = {(int(row["p.particles"]), round(float(row["particles_median"]))) for row in invalid}
+    if invalid:
+        lines += ["", "\\* With " + ", and ".join(f"{drawn:,} instead of {load:,}" for load, drawn in sorted(counts)) + " particles."]
     return lines
 
 

@@ -152,11 +152,11 @@ def rows(name):
 
 def figures_text():
     modes = {row["p.mode"] for row in rows("full/summary.csv") if row["status"] == "done" and row["width"] == "640" and row["p.mode"]}
-    models = ("the models as printed in the paper (`mode=paper`), and our corrected models (`mode=fixed`) at 20 m/s" if "paper" in modes else
+    models = ("the models as printed in the paper (`mode=paper`), and with our corrected models (`mode=fixed`) at 20 m/s" if "paper" in modes else
               "our corrected models (`mode=fixed`); the models as printed have only been measured in quick runs so far")
-    text = (f"Figures 5 and 7 of the paper, with all loads and speeds of their suites, at 640×480 pixels. They were measured with {models}. "
-            "The paper states no numbers for these figures, so compare the shapes of the curves.")
-    return "\n".join(textwrap.wrap(text, 150))
+    text = (f"Figures 5 and 7 of Carr & Geyer at 640×480 pixels, at all loads and speeds of their suites, measured with {models}. "
+            "The paper states no numbers for them, so compare the shapes of the curves.")
+    return "\n".join(textwrap.wrap(text, 158))
 
 
 def block():
