@@ -24,6 +24,7 @@ void DrawPace::note(const PacedFrame& frame) {
     if (frames_.size() == framesToRaise) frames_.erase(frames_.begin());
     frames_.push_back({frame.wholeMs, draw, frame.shown});
     if (frames_.size() < framesToLower) return;
+    learnShown();
     if (const PacedFrame recent = medianOfLast(framesToLower); recent.wholeMs > limitMs) return go(smallerStep(recent));
     if (frames_.size() < framesToRaise || step_ == 0) return;
     if (predictedMs(medianOfLast(framesToRaise), step_ - 1) < raisedBelow * limitMs) go(step_ - 1);
@@ -40,7 +41,7 @@ PacedFrame DrawPace::medianOfLast(std::size_t count) const {
 }
 
 double DrawPace::predictedMs(const PacedFrame& frame, std::size_t step) const {
-    const auto pixels = [&](std::size_t of) { return shares[of] * shares[of] * (of > 0 ? frame.shown : 1); };
+    const auto pixels = [&](std::size_t of) { return shares[of] * shares[of] * (of > 0 ? shownOf(frame) : 1); };
     return frame.wholeMs - frame.drawMs + frame.drawMs * pixels(step) / pixels(step_);
 }
 
@@ -51,8 +52,21 @@ std::size_t DrawPace::smallerStep(const PacedFrame& frame) const {
     return predictedMs(frame, step) <= (1 - leastGain) * frame.wholeMs ? step : step_;
 }
 
+double DrawPace::shownOf(const PacedFrame& frame) const {
+    return shownCost_ > 0 && frame.shown == learnedFor_ ? shownCost_ : frame.shown;
+}
+
+void DrawPace::learnShown() {
+    if (step_ == 0 || !(wholeDrawMs_ > 0)) return;
+    const PacedFrame recent = medianOfLast(framesToLower);
+    learnedFor_ = recent.shown;
+    shownCost_ = std::clamp(recent.drawMs / (wholeDrawMs_ * shares[step_] * shares[step_]), 0.01, 1.0);
+    wholeDrawMs_ = 0;
+}
+
 void DrawPace::go(std::size_t step) {
     if (step == step_) return;
+    if (step_ == 0) wholeDrawMs_ = medianOfLast(framesToLower).drawMs;
     step_ = step;
     frames_.clear();
 }

@@ -6,7 +6,8 @@
 //     T(n') = T − D + D·n'/n
 //
 // If a part of D does not shrink, the prediction is too low for a smaller size and too high for a larger one. So a size
-// that was too slow is not chosen again while the costs stay the same.
+// that was too slow is not chosen again while the costs stay the same. Visible parts may cost less or more than their
+// pixels, since dust is not everywhere: their share of D is measured when they replace whole pictures.
 // Units: milliseconds; sizes are shares of width and height. Threads: pure.
 #pragma once
 
@@ -44,8 +45,13 @@ class DrawPace {
     [[nodiscard]] double predictedMs(const PacedFrame& frame, std::size_t step) const;
     [[nodiscard]] std::size_t smallerStep(const PacedFrame& frame) const;
     void go(std::size_t step);
+    void learnShown();
+    [[nodiscard]] double shownOf(const PacedFrame& frame) const;
 
     std::size_t step_ = 0;
+    double wholeDrawMs_ = 0;          ///< D of whole pictures when they became too slow; 0: it is used
+    double learnedFor_ = 0;           ///< PacedFrame::shown of the frames behind `shownCost_`
+    double shownCost_ = 0;            ///< share of D that visible parts took; 0: not known
     std::vector<PacedFrame> frames_;  ///< at this size, at most the last `framesToRaise`
 };
 

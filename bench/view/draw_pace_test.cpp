@@ -10,12 +10,12 @@ namespace {
 
 constexpr double limitMs = 1000 / pacedFramesPerSecond;
 
-/// The cost of a frame at a share of the size: T = fixed + perFrame + perPixel·s². The last two are drawing, of which
-/// only `shown` can be drawn.
+/// The cost of a frame at a share of the size: T = fixed + perFrame + perPixel·s². The last two are drawing. Of
+/// perPixel, visible parts take the share `dust`, though they have the share `shown` of the pixels.
 struct Costs {
-    double fixed, perFrame, perPixel, shown = 1;
+    double fixed, perFrame, perPixel, shown = 1, dust = shown;
     [[nodiscard]] PacedFrame at(double share, bool onlyShown = false) const {
-        const double draw = perFrame + perPixel * share * share * (onlyShown ? shown : 1);
+        const double draw = perFrame + perPixel * share * share * (onlyShown ? dust : 1);
         return {fixed + draw, draw, shown};
     }
 };
@@ -79,6 +79,25 @@ TEST(DrawPace, GoesBackToTheFullSizeWhenTheLoadIsGone) {
     EXPECT_EQ(pace.share(), DrawPace::shares.back());
     note(pace, {5, 1, 20}, static_cast<int>(DrawPace::framesToRaise * DrawPace::shares.size()));
     EXPECT_EQ(pace.share(), 1);
+}
+
+/// Where visible parts cost much less or more than their pixels, too.
+TEST(DrawPace, DoesNotSwingBetweenPartsAndWholePictures) {
+    std::mt19937 random(26);
+    std::uniform_real_distribution<double> upTo(0, 1);
+    for (int trial = 0; trial < 500; ++trial) {
+        const Costs costs{40 * upTo(random), 10 * upTo(random), 300 * upTo(random), 0.5, upTo(random)};
+        DrawPace pace;
+        note(pace, costs, 400);
+        int changes = 0;
+        for (int n = 0; n < 2000; ++n) {
+            const double before = pace.share();
+            const bool wereParts = pace.drawsOnlyShown();
+            note(pace, costs, 1);
+            changes += before != pace.share() || wereParts != pace.drawsOnlyShown();
+        }
+        EXPECT_EQ(changes, 0) << trial;
+    }
 }
 
 /// For constant costs the size only gets smaller, and it keeps the pace or is the smallest that helps.

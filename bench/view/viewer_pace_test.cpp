@@ -96,11 +96,13 @@ TEST_F(Paced, OnlyWhatIsShownIsDrawnAndIsTheSame) {
         }
         viewer_->keepsPace = viewer_->drawsOnlyShown = true;
         for (int n = 0; n < 3; ++n) viewer_->advance(1e9), whole->advance(1e9);
-        for (const Shown shown : {Shown::wipe, Shown::b, Shown::sideBySide, Shown::difference, Shown::a}) {
+        for (const auto& [shown, isEnlarged] :
+             {std::pair(Shown::wipe, false), std::pair(Shown::b, false), std::pair(Shown::sideBySide, false),
+              std::pair(Shown::wipe, true), std::pair(Shown::difference, true), std::pair(Shown::a, false)}) {
             SplitSettings settings;
             settings.shown = shown;
             settings.divider = 0.3f;
-            if (shown == Shown::difference) settings.origin = {0.1f, 0.2f}, settings.extent = {0.5f, 0.5f};
+            if (isEnlarged) settings.origin = {0.5f, 0.4f}, settings.extent = {0.4f, 0.4f};
             viewer_->split = whole->split = settings;
             viewer_->advance();
             whole->advance();
