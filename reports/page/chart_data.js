@@ -91,10 +91,11 @@ const chartData = (() => {
         return { ...experiment, axes, cells: [...groups.values()].map(mergedCell), fits: [] };
     };
 
-    // Loads are settings that vary and that every configuration has, numbers first.
+    // Loads are settings that vary and that every configuration has, or that the suite names for its chart, numbers first.
     const byUse = (a, b) => b.numeric - a.numeric || (b.name === 'particles') - (a.name === 'particles') || b.world - a.world || b.values.length - a.values.length;
     const loadsOf = experiment => experiment.axes.filter(axis => !['seed', 'frames'].includes(axis.name) &&
-        experiment.cells.every(cell => cell.settings[axis.name] !== undefined || cell.method === chartStyle.baseline)).sort(byUse);
+        (axis.name === (experiment.chart || {}).against ||
+            experiment.cells.every(cell => cell.settings[axis.name] !== undefined || cell.method === chartStyle.baseline))).sort(byUse);
     const has = (experiment, name) => experiment.cells.some(cell => valueOf(cell, name));
     const known = (report, experiment, kind) => Object.keys(report.columns).filter(name => report.columns[name][kind] && has(experiment, name));
     const costsOf = (report, experiment) => known(report, experiment, 'cost');

@@ -77,18 +77,23 @@ const costChart = (() => {
     const buildCurves = (report, chart, column, load) => {
         const { experiment, theme } = chart;
         const info = columnOf(report, column);
+        const hasLoad = cell => cell.settings[load.name] !== undefined;
         const cells = inOrder(experiment, experiment.cells)
-            .filter(cell => cell.settings[load.name] !== undefined && valueOf(cell, column) && !chart.hidden.has(cell.method));
-        if (!cells.length) return missing;
+            .filter(cell => (hasLoad(cell) || cell.method !== chartStyle.baseline) && valueOf(cell, column) && !chart.hidden.has(cell.method));
+        if (!cells.some(hasLoad)) return missing;
+        const loads = distinct(cells.filter(hasLoad).map(cell => Number(cell.settings[load.name])));
+        // The line of a configuration without the load is level.
+        const atOf = cell => (hasLoad(cell) ? [Number(cell.settings[load.name])] : [Math.min(...loads), Math.max(...loads)]);
 
         // One method with one setting: its lines share a panel, a line for each world.
         const panels = distinct(cells.map(cell => worldOf(experiment, cell, load.name)));
         const alone = distinct(cells.map(cell => variantOf(report, experiment, cell, load.name))).length === 1 && panels.length > 1 && panels.length <= 7;
         const thePanel = cell => (alone ? '' : worldOf(experiment, cell, load.name));
         const theSeries = cell => (alone ? worldOf(experiment, cell, load.name) : variantOf(report, experiment, cell, load.name));
-        const points = cells.map(cell => {
+        const points = cells.flatMap(cell => {
             const [y, low, high] = valueOf(cell, column).map(value => shown(value, info.unit));
-            return { panel: thePanel(cell), series: theSeries(cell), line: lineOf(theSeries(cell)), x: Number(cell.settings[load.name]), y, low, high, tip: pointTip(report, cell, theSeries(cell), column, load) };
+            const tip = pointTip(report, cell, theSeries(cell), column, hasLoad(cell) ? load : undefined);
+            return atOf(cell).map(x => ({ panel: thePanel(cell), series: theSeries(cell), line: lineOf(theSeries(cell)), x, y, low, high, tip }));
         });
         const xs = distinct(points.map(point => point.x)).sort((a, b) => a - b);
         const xLog = chart.xLog ?? spans(xs, 15);

@@ -4,6 +4,7 @@ const mapChart = (() => {
     const { themes, withUnit } = chartStyle;
     const { columnOf, axisTitle, distinct } = chartData;
     const { fresh, setSignals, setData, setScale, panelsWithin, wrapped } = chartParts;
+    const letter = 6; // pixels of a letter in a tile
     const verdicts = ['confirmed', 'refuted', 'unresolved'];
     const marks = { confirmed: '✓', refuted: '✗', unresolved: '?' };
     const tones = { light: ['#bfe5d5', '#f8cbbd', '#e6e8eb'], dark: ['#1a5540', '#6b2c1f', '#3a4047'] };
@@ -27,20 +28,23 @@ const mapChart = (() => {
         const axis = report.data.experiments.flatMap(experiment => experiment.axes).find(item => item.name === name);
         return axisTitle(columnOf(report, name).name, columnOf(report, name).unit || (axis && axis.unit !== name ? axis.unit : ''));
     };
-    /// The tiles of a claim. Settings other than rows and columns divide a tile into strips.
-    const tilesOf = (report, claim) => {
+    /// The tiles of a claim in a panel of this width. Settings other than rows and columns divide a tile into strips. Tiles have a number
+    /// if it fits into all of them.
+    const tilesOf = (report, claim, width) => {
         const across = acrossOf(claim), [, unit] = words.quantityOf(report, claim);
         const rest = othersOf(claim).filter(name => name !== across);
         const keyOf = cell => rest.map(name => cell.at[name] ?? '');
         const strips = distinct(claim.cells.map(cell => JSON.stringify(keyOf(cell)))).map(JSON.parse)
             .sort((a, b) => a.map((value, index) => byNumber(value, b[index])).find(Boolean) || 0).map(String);
         const [xs, ys] = [across ? valuesOf(claim, across) : [''], valuesOf(claim, claim.rule.along).reverse()];
-        return claim.cells.map(cell => {
+        const numbered = claim.cells.map(cell => `${marks[cell.verdict]} ${withUnit(cell.measured, unit)}`);
+        const isRoomy = strips.length === 1 && Math.max(...numbered.map(text => text.length)) * letter <= width / xs.length;
+        return claim.cells.map((cell, index) => {
             const [x, y] = [across ? cell.at[across] ?? '' : '', cell.at[claim.rule.along]];
             return {
                 panel: claim.id, x, y, column: xs.indexOf(x), row: ys.indexOf(y), verdict: cell.verdict,
                 strip: strips.indexOf(String(keyOf(cell))), strips: strips.length,
-                text: marks[cell.verdict] + (strips.length === 1 ? ` ${withUnit(cell.measured, unit)}` : ''),
+                text: isRoomy ? numbered[index] : marks[cell.verdict],
                 tip: { title: claim.id, at: words.readable(cell.text), verdict: cell.verdict, measured: words.measuredText(cell, unit, claim), 'true if': words.rangeOf(claim, unit) },
             };
         });
@@ -62,7 +66,7 @@ const mapChart = (() => {
         const { claims, theme } = chart;
         const { along } = claims[0].rule;
         const { columns, each } = panelsWithin(chart.width, claims.length);
-        const tiles = claims.flatMap(claim => tilesOf(report, claim));
+        const tiles = claims.flatMap(claim => tilesOf(report, claim, Math.max(each, 120)));
         const spec = fresh(report.specifications.map);
         setSignals(spec, { panelWidth: Math.max(each, 120), panelColumns: columns, yTitle: titleOf(report, along), ink: themes[theme].ink, paper: themes[theme].paper });
         const panels = claims.map(claim => ({

@@ -179,6 +179,19 @@ class ReportCharts(page_case.PageCase):
         })()""")
         self.assertEqual(built, ["bars", ["A", "B", "C x 2", "C x 10"]])
 
+    def test_a_load_that_the_suite_names_gives_level_lines_where_methods_lack_it(self):
+        built = self.browser.evaluate("""(() => {
+            const cell = (method, settings, fps) => ({ method, settings, machine: 0, failed: 0, probability: 0, runs: [0], values: { fps_avg: fps, frame_ms_median: 1 } });
+            const experiment = { id: 'x', suite: '', title: '', chart: { column: 'fps_avg', against: 'x' }, fits: [], published: [],
+                axes: [{ name: 'x', unit: '', world: false, numeric: true, values: ['2', '5', '10'] }],
+                cells: [cell('C', { x: '10' }, 4), cell('A', {}, 1), cell('C', { x: '2' }, 3), cell('C', { x: '5' }, 6), cell('null_method', {}, 9)] };
+            const data = { ...JSON.parse(document.getElementById('report-data').textContent), experiments: [experiment] };
+            const report = { data, columns: JSON.parse(document.getElementById('report-columns').textContent), specifications: JSON.parse(document.getElementById('report-charts').textContent) };
+            const { spec, state } = chartKit.build(report, chartKit.list(report)[0]);
+            return [state.x, spec.data.find(({ name }) => name === 'points').values.map(({ series, x, y }) => `${series} ${x} ${y}`).sort()];
+        })()""")
+        self.assertEqual(built, ["x", ["A 10 1", "A 2 1", "C 10 4", "C 2 3", "C 5 6"]])
+
     def test_a_front_needs_intervals_that_separate(self):
         def front(points, high="false"):
             made = [dict(zip(("x", "xLow", "xHigh", "y", "yLow", "yHigh"), point)) for point in points]
