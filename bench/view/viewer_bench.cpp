@@ -11,8 +11,8 @@
 namespace dustbench::view {
 namespace {
 
-/// Arguments: the pictures' height, their shape is 4:3; 1 to draw only what is shown of them, as the window does where
-/// frames are slow; 1 for the moments on the left, where more of the dust is.
+/// A frame of billboards next to moments. Arguments: height of the pictures (width:height = 4:3); 1: draw visible parts
+/// only, as the window does if frames are slow; 1: moments on the left, where more of the dust is.
 void shownFrame(benchmark::State& state) {
     gpu::Device device;
     ViewState shown;

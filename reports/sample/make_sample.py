@@ -1,4 +1,4 @@
-"""Makes the sample reports, a folder for each paper, and the README's table and charts from the same runs.
+"""Makes the sample reports, a folder for each paper. Writes the README's charts from them, and its table from data/machines.
 
     make_sample.py PROGRAM [PAPER …]            measures the quick runs (half an hour), writes this folder and README.md;
                                                 `make sample` calls it
@@ -36,7 +36,7 @@ GROUPS = {"transparency": {
     "suites": ["transparency", "transparency-scenes", "transparency-load"]}}
 GROUPED = {paper for group in GROUPS.values() for paper in group["papers"]}
 PAPERS = sorted(folder.parent.name for folder in (ROOT / "data" / "papers").glob("*/paper.toml") if folder.parent.name not in GROUPED)
-PAPER, SUITE = "carr2006", "carr2006-compare-quick"  # shown in README.md
+PAPER = "carr2006"  # shown in README.md
 MAP = "carr2006-by-voxel_edge"  # the map of the paper's claims
 BEGIN, END = "<!-- sample: `make sample` writes what follows -->\n", "<!-- end of sample -->\n"
 GUIDE = ROOT / "reports" / "guide" / "which-transparency.md"  # with a table of the group `transparency`
@@ -78,9 +78,6 @@ def measure(program, paper):
     subprocess.run([program, "report", out, "--pictures", "1"], check=True)
     keep(out, kept, TABLES, durations)
     if paper == PAPER:
-        for chart in (SUITE, SUITE + "-stages"):
-            subprocess.run([program, "report", out, "--chart", chart, "--format", "png"], check=True)
-            shutil.copy(out / "charts" / f"{chart}.png", kept)
         draw_map(program, kept)
 
 
@@ -145,17 +142,9 @@ def differing(paper):
     return [claim for claim, verdict in full.items() if quick.get(claim) != verdict]
 
 
-def rows(name):
-    with open(HERE / PAPER / name, encoding="utf-8", newline="") as stream:
-        return list(csv.DictReader(stream))
-
-
 def figures_text():
-    modes = {row["p.mode"] for row in rows("full/summary.csv") if row["status"] == "done" and row["width"] == "640" and row["p.mode"]}
-    models = ("the models as printed in the paper (`mode=paper`), and with our corrected models (`mode=fixed`) at 20 m/s" if "paper" in modes else
-              "our corrected models (`mode=fixed`); the models as printed have only been measured in quick runs so far")
-    text = (f"Figures 5 and 7 of Carr & Geyer at 640×480 pixels, at all loads and speeds of their suites, measured with {models}. "
-            "The paper states no numbers for them, so compare the shapes of the curves.")
+    text = ("Figures 5 and 7 of Carr & Geyer at 640×480 pixels, at all loads and speeds of their suites, measured with the models as printed in the paper "
+            "(`mode=paper`), and with our corrected models (`mode=fixed`) at 20 m/s. The paper states no numbers for them, so compare the shapes of the curves.")
     return "\n".join(textwrap.wrap(text, 158))
 
 
