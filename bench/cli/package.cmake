@@ -2,7 +2,7 @@
 # of contract and kit, the manual page and the shell completions.
 set_target_properties(dustbench PROPERTIES INSTALL_RPATH "$ORIGIN/../lib/dustbench/kit")
 install(TARGETS dustbench RUNTIME DESTINATION bin)
-install(TARGETS dustbench_kit dustbench_openimageio dustbench_vdb_reader
+install(TARGETS dustbench_kit dustbench_openimageio dustbench_openvdb dustbench_vdb_reader
   RUNTIME DESTINATION lib/dustbench/kit LIBRARY DESTINATION lib/dustbench/kit)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/data/ DESTINATION share/dustbench)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/reports/page DESTINATION share/dustbench/reports)

@@ -1,88 +1,40 @@
 #include "bench/export/format_writers.h"
 
 #include <fmt/format.h>
-#include <openvdb/io/Archive.h>
-#include <openvdb/openvdb.h>
-#include <openvdb/tools/Dense.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-
-#ifdef __SANITIZE_THREAD__
-#include <tbb/global_control.h>
-#endif
 
 #include "bench/export/exporter.h"
+#include "bench/export/vdb_library.h"
 #include "bench/export/whole_file.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/loaded_library.h"
 #include "methods/kit/files/machine_error.h"
 
 namespace dustbench::exports {
 namespace {
 
 constexpr float largestHalf = 65504;
+/// OpenVDB treats cells of less than 3e-15 m³ as empty.
+constexpr double smallestSpacing = 1.5e-5;
 
-/// ThreadSanitizer cannot see into an uninstrumented oneTBB and reports false races: OpenVDB uses one thread there.
-void initialise() {
-#ifdef __SANITIZE_THREAD__
-    static const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
-#endif
-    openvdb::initialize();
+/// Loaded on first call. Never unloaded, because OpenVDB uses threads.
+const VdbLibrary& vdbLibrary() {
+    static const VdbLibrary& library = *reinterpret_cast<const VdbLibrary* (*)()>(
+        files::functionOf("dustbench_openvdb", "dustbenchVdbLibrary", "OpenVDB files"))();
+    return library;
 }
 
-/// OpenVDB's own file class does not notice a full disk, so we open the stream and check it.
-class File final : public openvdb::io::Archive {
- public:
-    void writeFile(const std::filesystem::path& path, const openvdb::GridPtrVec& grids) const {
-        std::ofstream stream(path, std::ios::binary | std::ios::trunc);
-        if (!stream) files::failWriting(path, errno);
-        Archive::write(stream, grids, /*seekable=*/true);
-        stream.flush();
-        if (!stream) files::failWriting(path, errno);
-    }
-};
-
-/// `values` cell by cell, x fastest, which is OpenVDB's LayoutXYZ. OpenVDB only reads our memory.
-template <typename Grid>
-typename Grid::Ptr sparse(const float* values, const std::array<int, 3>& cells, double spacing,
-                          const glm::dvec3& origin) {
-    using Value = typename Grid::ValueType;
-    const openvdb::CoordBBox box(0, 0, 0, cells[0] - 1, cells[1] - 1, cells[2] - 1);
-    const openvdb::tools::Dense<Value, openvdb::tools::LayoutXYZ> dense(
-        box, reinterpret_cast<Value*>(const_cast<float*>(values)));
-    const auto grid = Grid::create(Value(0));
-    openvdb::tools::copyFromDense(dense, *grid, Value(0));
-    // OpenVDB treats cells of less than 3e-15 m³ as empty.
-    constexpr double smallestSpacing = 1.5e-5;
-    if (spacing < smallestSpacing)
+void writeWholeVdb(const VdbContents& contents, const std::filesystem::path& file) {
+    if (contents.spacingMetres < smallestSpacing)
         throw InputError(
             fmt::format("vdb: got cells of {:.3g} m, allowed: {:.2g} m or more; choose a lower --resolution, a "
                         "larger --region or another --format",
-                        spacing, smallestSpacing));
-    const auto transform = openvdb::math::Transform::createLinearTransform(spacing);
-    transform->postTranslate(openvdb::Vec3d(origin.x, origin.y, origin.z) + openvdb::Vec3d(spacing / 2));
-    grid->setTransform(transform);
-    return grid;
-}
-
-void describe(openvdb::GridBase& grid, const std::string& name, const std::string& unit, std::int64_t frame,
-              double timeSeconds) {
-    grid.setName(name);
-    grid.setCreator("dustbench");
-    grid.insertMeta("unit", openvdb::StringMetadata(unit));
-    grid.insertMeta("time_s", openvdb::DoubleMetadata(timeSeconds));
-    grid.insertMeta("frame", openvdb::Int64Metadata(frame));
-}
-
-void writeWholeVdb(const openvdb::GridPtrVec& grids, const std::filesystem::path& file) {
+                        contents.spacingMetres, smallestSpacing));
     WholeFile whole(file);
-    try {
-        File().writeFile(whole.temporaryPath(), grids);
-    } catch (const openvdb::Exception& error) {
-        throw cannotWrite(file, error.what());
-    }
+    const VdbFailure failure = vdbLibrary().write(contents, whole.temporaryPath());
+    if (failure.errorNumber != 0) files::failWriting(whole.temporaryPath(), failure.errorNumber);
+    if (!failure.message.empty()) throw cannotWrite(file, failure.message);
     whole.publish();
 }
 
@@ -97,36 +49,24 @@ void writeVdb(const ExtinctionGrid& grid, VdbPrecision precision, std::int64_t f
             fmt::format("{}: an extinction of {} per metre exceeds the range of half floats, allowed: at most {}, or "
                         "--vdb-precision float",
                         file.string(), largest, largestHalf));
-    initialise();
     const GridPlan& plan = grid.plan;
-    const auto density =
-        sparse<openvdb::FloatGrid>(grid.extinctionPerMetre.data(), plan.cells, plan.spacingMetres, plan.origin);
-    density->setGridClass(openvdb::GRID_FOG_VOLUME);
-    density->setSaveFloatAsHalf(half);
-    describe(*density, "density", "1/m", frame, timeSeconds);
-    writeWholeVdb({density}, file);
+    writeWholeVdb({plan.cells,
+                   plan.spacingMetres,
+                   plan.origin,
+                   frame,
+                   timeSeconds,
+                   {{.name = "density", .unit = "1/m", .half = half, .values = grid.extinctionPerMetre}}},
+                  file);
 }
 
 void writeGridVdb(const CollectedGrid& grid, std::int64_t frame, double timeSeconds,
                   const std::filesystem::path& file) {
-    initialise();
-    const std::array cells{grid.cells.x, grid.cells.y, grid.cells.z};
-    openvdb::GridPtrVec grids;
-    for (const CollectedField& field : grid.fields) {
-        openvdb::GridBase::Ptr each;
-        if (field.components == 3) {
-            const auto vectors =
-                sparse<openvdb::Vec3SGrid>(field.values.data(), cells, grid.spacingMetres, grid.originMetres);
-            vectors->setVectorType(openvdb::VEC_CONTRAVARIANT_ABSOLUTE);
-            each = vectors;
-        } else {
-            each = sparse<openvdb::FloatGrid>(field.values.data(), cells, grid.spacingMetres, grid.originMetres);
-            each->setGridClass(openvdb::GRID_FOG_VOLUME);
-        }
-        describe(*each, field.name, field.unit, frame, timeSeconds);
-        grids.push_back(each);
-    }
-    writeWholeVdb(grids, file);
+    VdbContents contents{
+        {grid.cells.x, grid.cells.y, grid.cells.z}, grid.spacingMetres, grid.originMetres, frame, timeSeconds};
+    for (const CollectedField& field : grid.fields)
+        contents.fields.push_back(
+            {.name = field.name, .unit = field.unit, .components = field.components, .values = field.values});
+    writeWholeVdb(contents, file);
 }
 
 namespace vdb_format {

@@ -12,6 +12,7 @@ namespace dustbench::files {
 
 /// The address of `function` in `lib<name>.so` next to the kit. The library is never unloaded. `what` names the
 /// purpose in messages: `pictures`. Throws std::runtime_error if either is missing.
-[[nodiscard]] void* functionOf(const std::string& name, const std::string& function, const std::string& what);
+[[nodiscard]] DUSTBENCH_API void* functionOf(const std::string& name, const std::string& function,
+                                             const std::string& what);
 
 }  // namespace dustbench::files
