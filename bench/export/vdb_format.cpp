@@ -32,9 +32,10 @@ void writeWholeVdb(const VdbContents& contents, const std::filesystem::path& fil
                         "larger --region or another --format",
                         contents.spacingMetres, smallestSpacing));
     WholeFile whole(file);
-    const VdbFailure failure = vdbLibrary().write(contents, whole.temporaryPath());
-    if (failure.errorNumber != 0) files::failWriting(whole.temporaryPath(), failure.errorNumber);
-    if (!failure.message.empty()) throw cannotWrite(file, failure.message);
+    if (const auto failure = vdbLibrary().write(contents, whole.temporaryPath())) {
+        if (failure->message.empty()) files::failWriting(whole.temporaryPath(), failure->errorNumber);
+        throw cannotWrite(file, failure->message);
+    }
     whole.publish();
 }
 

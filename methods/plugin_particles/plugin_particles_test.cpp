@@ -276,9 +276,8 @@ TEST(PluginParticles, GlowingSystemsLightTheSceneAndOthersDoNot) {
     EXPECT_EQ(counted.sizes.size(), 2u);
 }
 
-/// A minute of every delivered system: particle counts stay at the requested numbers, and all states are finite. With
-/// DUSTBENCH_FULL_SIZE at the systems' own rates (`make long`).
-/// Drives a minute with a delivered system.
+/// A minute of a delivered system: the particle count stays at the requested number, and all states are finite.
+/// `fullSize`: at the system's own rate.
 void expectStable(const std::string& name, bool fullSize) {
     Moment moment;
     moment.scene.vehicle.emplace();
@@ -307,7 +306,8 @@ void expectStable(const std::string& name, bool fullSize) {
     EXPECT_LT(sum / 40, 2600) << name;
 }
 
-/// On one thread: with so few particles, a second one would mostly wait.
+/// With DUSTBENCH_FULL_SIZE at the systems' own rates (`make long`), otherwise on one thread, because with so few
+/// particles a second one would mostly wait.
 TEST(PluginParticles, DeliveredSystemsAreStable) {
     const bool fullSize = std::getenv("DUSTBENCH_FULL_SIZE") != nullptr;
     tbb::task_arena arena(fullSize ? tbb::task_arena::automatic : 1);

@@ -26,13 +26,13 @@ void initialise() {
 /// OpenVDB's own file class does not notice a full disk, so we open the stream and check it.
 class File final : public openvdb::io::Archive {
  public:
-    /// The system's error number; 0: none.
-    [[nodiscard]] int writeFile(const fs::path& path, const openvdb::GridPtrVec& grids) const {
+    [[nodiscard]] std::optional<VdbFailure> writeFile(const fs::path& path, const openvdb::GridPtrVec& grids) const {
         std::ofstream stream(path, std::ios::binary | std::ios::trunc);
-        if (!stream) return errno;
+        if (!stream) return VdbFailure{.errorNumber = errno};
         Archive::write(stream, grids, /*seekable=*/true);
         stream.flush();
-        return stream ? 0 : errno;
+        if (!stream) return VdbFailure{.errorNumber = errno};
+        return {};
     }
 };
 
@@ -66,7 +66,8 @@ openvdb::GridBase::Ptr gridOf(const VdbField& field, const VdbContents& contents
 
 class OpenVdb final : public VdbLibrary {
  public:
-    [[nodiscard]] VdbFailure write(const VdbContents& contents, const fs::path& file) const override try {
+    [[nodiscard]] std::optional<VdbFailure> write(const VdbContents& contents, const fs::path& file) const override
+        try {
         initialise();
         openvdb::GridPtrVec grids;
         for (const VdbField& field : contents.fields) {
@@ -78,9 +79,9 @@ class OpenVdb final : public VdbLibrary {
             grid->insertMeta("time_s", openvdb::DoubleMetadata(contents.timeSeconds));
             grid->insertMeta("frame", openvdb::Int64Metadata(contents.frame));
         }
-        return {.errorNumber = File().writeFile(file, grids)};
+        return File().writeFile(file, grids);
     } catch (const openvdb::Exception& error) {
-        return {.message = error.what()};
+        return VdbFailure{.message = error.what()};
     }
 };
 

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* variable = "DUSTBENCH_DATA";
-constexpr char path_separator = ':';
+constexpr char pathSeparator = ':';
 /// Subfolders of a data folder.
 constexpr std::array<const char*, 8> parts{"scenes", "drives", "particles", "textures",
                                            "shapes", "fluids", "volumes",   "suites"};
@@ -69,7 +69,7 @@ std::vector<fs::path> namedDataFolders() {
     const char* named = std::getenv(variable);
     std::string_view rest = named ? named : "";
     while (!rest.empty()) {
-        const std::size_t end = std::min(rest.find(path_separator), rest.size());
+        const std::size_t end = std::min(rest.find(pathSeparator), rest.size());
         if (end > 0) folders.push_back(checkedFolder(variable, std::string(rest.substr(0, end))));
         rest.remove_prefix(std::min(end + 1, rest.size()));
     }
@@ -90,10 +90,10 @@ void useDataFolders(std::string_view option, const std::vector<std::string>& fol
     std::string joined;
     for (const std::string& named : folders) {
         const std::string folder = checkedFolder(option, named).string();
-        if (folder.find(path_separator) != std::string::npos)
+        if (folder.find(pathSeparator) != std::string::npos)
             throw InputError(fmt::format("{}: '{}': has a '{}' in its path, which separates folders; move or link it",
-                                         option, named, path_separator));
-        joined += (joined.empty() ? "" : std::string(1, path_separator)) + folder;
+                                         option, named, pathSeparator));
+        joined += (joined.empty() ? "" : std::string(1, pathSeparator)) + folder;
     }
     setenv(variable, joined.c_str(), 1);
 }

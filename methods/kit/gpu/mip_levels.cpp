@@ -36,19 +36,9 @@ std::uint8_t encoded(float light) {
     return static_cast<std::uint8_t>(std::upper_bound(borders.begin(), borders.end(), light) - borders.begin());
 }
 
-/// `halved` for an even side: the means of pairs.
-std::vector<float> pairMeans(const std::vector<float>& from, std::size_t stride) {
-    std::vector<float> to(from.size() / 2);
-    const float* pair = from.data();
-    for (float *mean = to.data(), *end = mean + to.size(); mean != end; mean += stride, pair += 2 * stride)
-        for (std::size_t c = 0; c < stride; ++c) mean[c] = 0.5f * pair[c] + 0.5f * pair[stride + c];
-    return to;
-}
-
 /// Halves one side. `stride` values lie between neighbours along it, `lines` runs of neighbours follow each other.
 /// An odd side of 2m + 1 texels becomes m: each covers 2 + 1/m of the old ones.
 std::vector<float> halved(const std::vector<float>& from, int texels, std::size_t stride, std::size_t lines) {
-    if (texels % 2 == 0) return pairMeans(from, stride);
     const int half = std::max(texels / 2, 1);
     const float width = static_cast<float>(texels) / static_cast<float>(half);
     std::vector<float> to(lines * static_cast<std::size_t>(half) * stride);
