@@ -129,6 +129,20 @@ std::vector<Claim> readClaims(files::TomlReader file) {
     return claims;
 }
 
+/// Throws InputError unless the paper's paper.toml names the suite or experiment of the rule: `reproduce` runs no
+/// other.
+void requireMeasured(const Claim& claim, const Rule& rule, const suite::Paper& paper, bool ofControl) {
+    std::vector<std::string> suites = paper.suites;
+    if (ofControl) std::ranges::copy(paper.controls, std::back_inserter(suites));
+    const auto require = [&](const char* kind, const std::string& name, const std::vector<std::string>& measured) {
+        if (!name.empty() && std::ranges::find(measured, name) == measured.end())
+            throw InputError(fmt::format("{}claim {}: the {} '{}' is not in the paper's paper.toml, which has {}",
+                                         claim.where, claim.id, kind, name, fmt::join(measured, ", ")));
+    };
+    require("suite", rule.suite, suites);
+    require("experiment", rule.experiment, paper.experiments);
+}
+
 }  // namespace
 
 void requireColumn(const std::string& where, const std::string& name) {
@@ -220,7 +234,13 @@ std::string Rule::inWords() const {
 std::vector<Claim> loadClaims(const std::string& paper) {
     const std::filesystem::path file = suite::paperFile(paper, "claims.toml");
     if (file.empty()) return {};
-    return readClaims(files::TomlReader::parseFile(file));
+    std::vector<Claim> claims = readClaims(files::TomlReader::parseFile(file));
+    const suite::Paper measured = suite::loadPaper(paper);
+    for (const Claim& claim : claims) {
+        requireMeasured(claim, claim.rule, measured, false);
+        for (const ControlRule& control : claim.controls) requireMeasured(claim, control.rule, measured, true);
+    }
+    return claims;
 }
 
 std::vector<Claim> parseClaims(std::string_view text, const std::string& name) {

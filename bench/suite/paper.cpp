@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/toml_reader.h"
 
@@ -36,6 +37,12 @@ Paper loadPaper(const std::string& id) {
     paper.summary = file.text("summary");
     paper.suites = file.texts("suites");
     if (file.has("experiments")) paper.experiments = file.texts("experiments");
+    for (const std::string& name : paper.experiments) {
+        std::vector<std::string> experimentIds;
+        for (const ExperimentInfo& info : experiments()) experimentIds.push_back(info.id);
+        if (std::ranges::find(experimentIds, name) == experimentIds.end())
+            throw InputError(file.where("experiments") + unknownName("experiment", name, experimentIds).what());
+    }
     if (file.has("controls")) paper.controls = file.texts("controls");
     file.finish();
     return paper;
