@@ -8,7 +8,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "bench/claims/experiments.h"
 #include "bench/results/summary.h"
 #include "bench/suite/paper.h"
 #include "bench/suite/suite.h"
@@ -61,7 +60,7 @@ void readData(files::TomlReader& table, Rule& rule) {
     const auto wanted = [&](const char* key, bool missing) { return missing || table.has(key); };
     if (rule.quantity == Quantity::finding) {
         if (wanted("experiment", rule.experiment.empty()))
-            rule.experiment = table.choice("experiment", experimentNames());
+            rule.experiment = table.choice("experiment", suite::experimentNames());
         if (wanted("column", rule.column.empty())) rule.column = table.text("column");
         if (table.has("name")) rule.name = table.text("name");
         if (table.has("unit")) rule.unit = table.text("unit");

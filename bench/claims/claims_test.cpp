@@ -5,17 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <optional>
 #include <regex>
 #include <set>
 
 #include "bench/claims/claim_ledger.h"
 #include "bench/claims/claim_verdict.h"
 #include "bench/results/run_record.h"
-#include "bench/results/temporary_folder.h"
+#include "bench/suite/made_paper.h"
 #include "bench/suite/paper.h"
 #include "bench/suite/suite.h"
 #include "methods/contract/errors.h"
@@ -118,40 +116,20 @@ TEST(Claims, StandBesideTheSentencesOfTheirPaper) {
     for (const std::string& name : named) EXPECT_TRUE(ids.contains(name) || numbers.contains(name)) << name;
 }
 
-/// A paper that measures the suite `mud-loads` and the experiment `sampling`, and `mud-known` for controls.
-class ClaimsOfAPaper : public testing::Test {
- protected:
-    void SetUp() override {
-        if (const char* before = std::getenv("DUSTBENCH_DATA")) old_ = before;
-        std::filesystem::create_directories(folder_.path() / "papers/mud");
-        write("paper.toml",
-              "id = \"mud\"\ntitle = \"\"\nauthors = \"\"\nvenue = \"\"\nkey = \"\"\nsummary = \"\"\n"
-              "suites = [\"mud-loads\"]\nexperiments = [\"sampling\"]\ncontrols = [\"mud-known\"]\n");
-        setenv("DUSTBENCH_DATA", folder_.path().c_str(), 1);
-    }
-    void TearDown() override { old_ ? setenv("DUSTBENCH_DATA", old_->c_str(), 1) : unsetenv("DUSTBENCH_DATA"); }
-
-    void write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_.path() / "papers/mud" / name) << text;
-    }
+TEST(Claims, NeedWhatTheirPaperMeasures) {
+    const suite::MadePaper paper(
+        "suites = [\"mud-loads\"]\nexperiments = [\"sampling\"]\ncontrols = [\"mud-known\"]\n");
     /// The error message for a claim with this rule and this control; empty if there is none.
-    [[nodiscard]] std::string faultOf(const std::string& rule, const std::string& control) const {
-        write("claims.toml", "[[claim]]\nid = \"M1\"\ntext = \"t\"\nreason = \"r\"\nmin = 1\n" + rule +
-                                 "[[claim.control]]\nwhy = \"w\"\ngives = \"refuted\"\n" + control);
+    const auto faultOf = [&](const std::string& rule, const std::string& control) -> std::string {
+        paper.write("claims.toml", "[[claim]]\nid = \"M1\"\ntext = \"t\"\nreason = \"r\"\nmin = 1\n" + rule +
+                                       "[[claim.control]]\nwhy = \"w\"\ngives = \"refuted\"\n" + control);
         try {
             (void)loadClaims("mud");
         } catch (const InputError& error) {
             return error.what();
         }
         return "";
-    }
-
- private:
-    results::TemporaryFolder folder_;
-    std::optional<std::string> old_;
-};
-
-TEST_F(ClaimsOfAPaper, NeedWhatThePaperMeasures) {
+    };
     const auto runs = [](const std::string& suite) {
         return "quantity = \"value\"\nof = \"billboard\"\ncolumn = \"fps_avg\"\nsuite = \"" + suite + "\"\n";
     };

@@ -39,12 +39,6 @@ class LentWorld final : public ExperimentWorld {
 
 }  // namespace
 
-std::vector<std::string> experimentNames() {
-    std::vector<std::string> names;
-    for (const ExperimentInfo& info : experiments()) names.push_back(info.id);
-    return names;
-}
-
 std::vector<StoredFinding> runExperiment(std::string_view name, bool quick, std::uint64_t seed) {
     const ExperimentInfo& info = findExperiment(name);
     ProgramContext context(seed, quick);

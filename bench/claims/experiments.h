@@ -21,8 +21,6 @@ struct StoredFinding : Finding {
     std::string experiment;
 };
 
-[[nodiscard]] std::vector<std::string> experimentNames();
-
 /// Throws InputError for an unknown name, or if an experiment needs OpenGL and it is not available.
 [[nodiscard]] std::vector<StoredFinding> runExperiment(std::string_view name, bool quick = false,
                                                        std::uint64_t seed = 1);

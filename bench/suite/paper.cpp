@@ -21,6 +21,12 @@ std::vector<std::string> listPapers() {
     return ids;
 }
 
+std::vector<std::string> experimentNames() {
+    std::vector<std::string> names;
+    for (const ExperimentInfo& info : experiments()) names.push_back(info.id);
+    return names;
+}
+
 Paper loadPaper(const std::string& id) {
     const std::vector<std::string> known = listPapers();
     if (std::ranges::find(known, id) == known.end()) throw unknownName("paper", id, known);
@@ -37,12 +43,10 @@ Paper loadPaper(const std::string& id) {
     paper.summary = file.text("summary");
     paper.suites = file.texts("suites");
     if (file.has("experiments")) paper.experiments = file.texts("experiments");
-    for (const std::string& name : paper.experiments) {
-        std::vector<std::string> experimentIds;
-        for (const ExperimentInfo& info : experiments()) experimentIds.push_back(info.id);
-        if (std::ranges::find(experimentIds, name) == experimentIds.end())
-            throw InputError(file.where("experiments") + unknownName("experiment", name, experimentIds).what());
-    }
+    const std::vector<std::string> experimentsKnown = experimentNames();
+    for (const std::string& name : paper.experiments)
+        if (std::ranges::find(experimentsKnown, name) == experimentsKnown.end())
+            throw InputError(file.where("experiments") + unknownName("experiment", name, experimentsKnown).what());
     if (file.has("controls")) paper.controls = file.texts("controls");
     file.finish();
     return paper;

@@ -28,6 +28,9 @@ struct Paper {
 /// Ids of the papers in the data folders, sorted.
 [[nodiscard]] std::vector<std::string> listPapers();
 
+/// Names of all experiments of the methods (methods/contract/experiment.h).
+[[nodiscard]] std::vector<std::string> experimentNames();
+
 /// Throws InputError for an unknown id (with the nearest), or an error in its paper.toml.
 [[nodiscard]] Paper loadPaper(const std::string& id);
 

@@ -3,12 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <string>
-
-#include "bench/results/temporary_folder.h"
+#include "bench/suite/made_paper.h"
 #include "bench/suite/suite.h"
 #include "methods/contract/errors.h"
 
@@ -33,22 +28,14 @@ TEST(Paper, AnUnknownPaperHasANearestName) {
 }
 
 TEST(Paper, AnUnknownExperimentIsAnErrorBeforeAnythingIsMeasured) {
-    const results::TemporaryFolder folder;
-    std::filesystem::create_directories(folder.path() / "papers/mud");
-    std::ofstream(folder.path() / "papers/mud/paper.toml")
-        << "id = \"mud\"\ntitle = \"\"\nauthors = \"\"\nvenue = \"\"\nkey = \"\"\nsummary = \"\"\n"
-           "suites = []\nexperiments = [\"sampling\", \"samplin\"]\n";
-    const char* before = std::getenv("DUSTBENCH_DATA");
-    const std::string old = before ? before : "";
-    setenv("DUSTBENCH_DATA", folder.path().c_str(), 1);
-    std::string fault;
+    const MadePaper paper("suites = []\nexperiments = [\"sampling\", \"samplin\"]\n");
     try {
         (void)loadPaper("mud");
+        FAIL() << "nothing thrown";
     } catch (const InputError& error) {
-        fault = error.what();
+        EXPECT_THAT(error.what(),
+                    testing::HasSubstr("paper.toml:8: unknown experiment 'samplin' (did you mean 'sampling'?)"));
     }
-    before ? setenv("DUSTBENCH_DATA", old.c_str(), 1) : unsetenv("DUSTBENCH_DATA");
-    EXPECT_THAT(fault, testing::HasSubstr("paper.toml:8: unknown experiment 'samplin' (did you mean 'sampling'?)"));
 }
 
 }  // namespace dustbench::suite
