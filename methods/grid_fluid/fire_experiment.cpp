@@ -222,6 +222,7 @@ struct Shown {
     double sourceX;
     Picture volume;
     std::map<std::string, Picture> references;
+    std::map<std::string, double> particleDistances;  ///< from the reference, of the nearest particles
 };
 
 Shown measureFire(Found& found, int cells, std::uint64_t seed) {
@@ -234,6 +235,7 @@ Shown measureFire(Found& found, int cells, std::uint64_t seed) {
     const FieldPictures byPaths = picturesOf(finer.field, widthMetres / (2 * cells), flame, width),
                         byVolume{pictureOf(finer.grid, flame, width), freshnessOf(finer.grid, width)};
     const Picture volume = pictureOf(fire.grid, flame, width), wrong = pictureOf(fire.grid, backwards(flame), width);
+    std::map<std::string, double> particleDistances;
     for (const auto& [name, reference] : {std::pair("_by_paths", &byPaths), {"_by_volume", &byVolume}}) {
         double least = std::numeric_limits<double>::infinity(), correlation = 0;
         for (const double ofCells : {0.5, 1.0, 2.0}) {
@@ -246,11 +248,15 @@ Shown measureFire(Found& found, int cells, std::uint64_t seed) {
         const auto add = [&](const std::string& quantity, double value) { found[quantity + name].push_back(value); };
         add("error_ratio", std::log(distanceOf(volume, reference->shown) / least));
         add("control_error_ratio", std::log(distanceOf(wrong, reference->shown) / least));
+        particleDistances[name] = least;
         add("correlation_lead", correlationOf(volume, reference->freshness) - correlation);
         add("control_correlation_lead", correlationOf(wrong, reference->freshness) - correlation);
     }
     found["references_apart"].push_back(std::log(distanceOf(byVolume.shown, byPaths.shown)));
-    return {sourceOf(seed).centreMetres.x, volume, {{"_by_paths", byPaths.shown}, {"_by_volume", byVolume.shown}}};
+    return {sourceOf(seed).centreMetres.x,
+            volume,
+            {{"_by_paths", byPaths.shown}, {"_by_volume", byVolume.shown}},
+            particleDistances};
 }
 
 /// The picture moved to the right by whole pixels; nothing comes in from the side.
@@ -268,8 +274,8 @@ Picture moved(const Picture& picture, double metres) {
     return result;
 }
 
-/// Compares the volume with video textures: the references' pictures of the next three fires, at the place of this one.
-/// The nearest counts. The control's video is of this very fire: its reference as a volume.
+/// Compares the volume and the particles with video textures: the references' pictures of the next three fires, at the
+/// place of this one. The nearest counts. The control's video is of this very fire: its reference as a volume.
 void measureVideos(Found& found, const std::vector<Shown>& fires) {
     constexpr std::size_t videos = 3;
     for (std::size_t i = 0; i < fires.size(); ++i) {
@@ -282,10 +288,14 @@ void measureVideos(Found& found, const std::vector<Shown>& fires) {
                 nearest = std::min(nearest, distanceOf(video, reference));
             }
             found["error_ratio_video" + name].push_back(std::log(volume / nearest));
+            found["error_ratio_video_over_particles" + name].push_back(
+                std::log(nearest / fires[i].particleDistances.at(name)));
         }
         const Picture &reference = fires[i].references.at("_by_paths"), &own = fires[i].references.at("_by_volume");
-        found["control_error_ratio_video_by_paths"].push_back(
-            std::log(distanceOf(fires[i].volume, reference) / distanceOf(own, reference)));
+        const double ofOwn = distanceOf(own, reference);
+        found["control_error_ratio_video_by_paths"].push_back(std::log(distanceOf(fires[i].volume, reference) / ofOwn));
+        found["error_ratio_own_video_over_particles_by_paths"].push_back(
+            std::log(ofOwn / fires[i].particleDistances.at("_by_paths")));
     }
 }
 

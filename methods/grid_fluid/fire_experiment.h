@@ -44,13 +44,16 @@ enum class Paths { forgotten, kept };
 ///     error_ratio_video_REFERENCE  geometric mean: the volume's distance from the reference, divided by that of a
 ///                                  video texture: the nearest of three other fires, whose sources have another size
 ///                                  and heat, recorded as finely as the reference and shown at the same place
+///     error_ratio_video_over_particles_REFERENCE
+///                                  geometric mean: the same video texture's distance, divided by that of the particles
 ///     references_apart             geometric mean: distance of the two references from each other
 ///     pieces_lead                  mean: share of pieces visible as particles minus the share visible as a volume
 /// and the controls, which must reverse these:
 ///     control_error_ratio_REFERENCE, control_correlation_lead_REFERENCE
 ///                                  with the transfer function reversed for the volume
 ///     control_error_ratio_video_by_paths
-///                                  with a video of this very fire
+///                                  with a video of this very fire; error_ratio_own_video_over_particles_by_paths:
+///                                  the distance of that video, divided by that of the particles
 ///     control_pieces_lead          with pieces that a grid can resolve, two cells wide
 /// REFERENCE: by_paths, by_volume. Of three widths of particles, the one with the smallest error counts.
 [[nodiscard]] ExperimentInfo describe();

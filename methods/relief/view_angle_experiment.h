@@ -6,10 +6,10 @@
 // relief.
 //
 // Findings, over both panels: `missed_STEPS_ANGLE`, the share of the pixels missed by STEPS linear and 5 binary steps
-// (15 is the paper's), and `missed_safe_ANGLE`, `missed_mesh_ANGLE`. `missed_bump_ANGLE`: by bump mapping, which shows
-// the texel where the ray meets the face, and misses where that is more than three texels from the exact point.
-// `A_over_B` compares two of bump mapping, the paper's march (`relief`) and the mesh, which is displacement by
-// geometry: the increase of the share that B misses from 0° to 70°, minus the same for A.
+// (15 is the default of `march=paper`), and `missed_safe_ANGLE`, `missed_mesh_ANGLE`. `missed_bump_ANGLE`: by bump
+// mapping, which shows the texel where the ray meets the face, and misses where that is more than three texels from the
+// exact point. `A_over_B` compares two of bump mapping, the paper's march (`relief`) and the mesh, which is
+// displacement by geometry: the increase of the share that B misses from 0° to 70°, minus the same for A.
 //
 // Threads: the OpenGL thread. Source: Policarpo2005; Bergeron, 3.5.
 #pragma once

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <memory_resource>
+#include <unordered_map>
 
 #include "methods/kit/findings/findings.h"
 #include "methods/kit/findings/timing.h"
@@ -133,6 +135,64 @@ void measureErasure(std::uint64_t seed, std::size_t particles, int repetitions, 
     findings.push_back(ratioOf("churn_erased_array_over_list", ofErased.churn, ofList.churn));
 }
 
+using HashTable = Keyed<std::unordered_map<std::uint64_t, Attributes>>;
+using Tree = Keyed<std::map<std::uint64_t, Attributes>>;
+
+/// Counts the bytes that are allocated.
+class CountedMemory final : public std::pmr::memory_resource {
+ public:
+    [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+ private:
+    void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+        bytes_ += bytes;
+        return std::pmr::new_delete_resource()->allocate(bytes, alignment);
+    }
+    void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override {
+        bytes_ -= bytes;
+        std::pmr::new_delete_resource()->deallocate(memory, bytes, alignment);
+    }
+    [[nodiscard]] bool do_is_equal(const std::pmr::memory_resource& other) const noexcept override {
+        return this == &other;
+    }
+
+    std::size_t bytes_ = 0;
+};
+
+/// Bytes per particle of a container over those of the list.
+template <template <typename, typename> typename Container>
+Finding bytesOverList(std::string quantity, std::size_t particles) {
+    CountedMemory memory;
+    Keyed<Container<std::uint64_t, Attributes>> storage(&memory);
+    storage.churn(std::vector<Attributes>(particles));
+    const double ratio = static_cast<double>(memory.bytes()) / static_cast<double>(particles) /
+                         static_cast<double>(List<true>::bytesPerParticle());
+    return {std::move(quantity), ratio, ratio, ratio, static_cast<std::int64_t>(particles)};
+}
+
+template <typename Key, typename Value>
+using CountedTable = std::pmr::unordered_map<Key, Value>;
+template <typename Key, typename Value>
+using CountedTree = std::pmr::map<Key, Value>;
+
+/// The containers that the thesis leaves out, over a list.
+void measureKeyed(std::uint64_t seed, std::size_t particles, int repetitions, std::vector<Finding>& findings) {
+    Subject<List<true>> list(seed, particles);
+    Subject<HashTable> table(seed, particles);
+    Subject<Tree> tree(seed, particles);
+    Times ofList, ofTable, ofTree;
+    for (int k = 0; k < repetitions; ++k) {
+        list.measure(ofList);
+        table.measure(ofTable);
+        tree.measure(ofTree);
+    }
+    findings.push_back(ratioOf("scan_hash_over_list", ofTable.scan, ofList.scan));
+    findings.push_back(ratioOf("scan_tree_over_list", ofTree.scan, ofList.scan));
+    findings.push_back(bytesOverList<CountedTable>("bytes_hash_over_list", particles));
+    findings.push_back(bytesOverList<CountedTree>("bytes_tree_over_list", particles));
+    findings.push_back({"bytes_list_over_list", 1, 1, 1, 1});
+}
+
 }  // namespace
 
 std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, int repetitions) {
@@ -175,6 +235,7 @@ std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, i
                         bytesOfLinkedPlace / bytesOfPlace, bytesOfLinkedPlace / bytesOfPlace, 1});
     measureGrowth(seed, particles, std::min(repetitions, 9), findings);
     measureErasure(seed, particles / 10, std::min(repetitions, 9), findings);
+    measureKeyed(seed, particles, repetitions, findings);
     for (const auto& [name, measured] : times) {
         findings.push_back(medianOf("scan_ns_" + name, measured.scan));
         findings.push_back(medianOf("churn_ns_" + name, measured.churn));

@@ -1,5 +1,5 @@
-// Measures the cost of three ways to store particles, each with and without a pool of dead particles (claim R22): a
-// linked list, an array of structures, a structure of arrays.
+// Measures the cost of ways to store particles (claim R22): a linked list, an array of structures and a structure of
+// arrays, each with and without a pool of dead particles; a hash table and a tree, by serial number.
 //
 // `scan` ages and moves all particles; `churn` removes the dead and adds newborns. The pool of a list keeps the nodes
 // of the dead. That of an array gives their slots to newborns; without it, the survivors are compacted first.
@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -157,6 +158,31 @@ class ErasedArray {
     std::vector<Attributes> particles_;
 };
 
+/// A container of the standard library by serial number, `std::unordered_map` or `std::map`.
+template <typename Container>
+class Keyed {
+ public:
+    Keyed() = default;
+    explicit Keyed(const typename Container::allocator_type& allocator) : particles_(allocator) {}
+
+    void scan(float seconds) {
+        for (auto& [serial, particle] : particles_) particle.live(seconds);
+    }
+    void churn(const std::vector<Attributes>& newborns) {
+        std::erase_if(particles_, [](const auto& entry) { return entry.second.isDead(); });
+        for (const Attributes& newborn : newborns) particles_.emplace(serial_++, newborn);
+    }
+    [[nodiscard]] double sumOfAges() const {
+        double sum = 0;
+        for (const auto& [serial, particle] : particles_) sum += static_cast<double>(particle.age);
+        return sum;
+    }
+
+ private:
+    std::uint64_t serial_ = 0;
+    Container particles_;
+};
+
 /// An array without spare capacity: to grow, it allocates again and moves all elements (`std::vector` does so at each
 /// doubling of its size). This is the thesis's array if no adjacent memory is free.
 class TightArray {
@@ -252,6 +278,7 @@ class StructureOfArrays {
 ///
 /// scan_list_over_soa, scan_aos_over_soa: time of a scan over that of the structure of arrays, all with a pool.
 /// scan_list_over_aos: the cost of the links alone.
+/// scan_hash_over_list, scan_tree_over_list: a hash table and a red-black tree over the list.
 /// churn_without_over_with_list, …_aos, …_soa: time of removing dead particles and adding newborns, without the pool
 /// over with it.
 /// allocation_without_over_with_list: the same without the walk that finds the dead: time of freeing and allocating
@@ -261,7 +288,8 @@ class StructureOfArrays {
 /// growth_array_over_list: time to grow from nothing to 100,000 particles in 200 steps: an array that doubles its
 /// capacity, over a list; growth_moved_array_over_list: an array that is moved completely at each step.
 /// bytes_list_over_array: bytes of a particle with its link over those of the particle; …_of_places: of a particle with
-/// only a position, a control.
+/// only a position, a control. bytes_hash_over_list, bytes_tree_over_list: bytes that a hash table and a tree allocate
+/// per particle over those of the list; bytes_list_over_list: 1, a control.
 /// scan_twice: an array scanned twice over once, a control.
 /// allocation_of_equals, churn_of_equals, growth_of_equals, scan_of_equals: controls, one list and one array of
 /// structures measured twice. scan_ns_…, churn_ns_…: nanoseconds per particle and step, by `list`, `aos`, `soa`, with

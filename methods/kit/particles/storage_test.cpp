@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "methods/contract/errors.h"
@@ -43,6 +45,8 @@ TEST(Storage, AllVariantsKeepTheSameParticles) {
         EXPECT_EQ(history<ArrayOfStructures<false>>(seed), expected);
         EXPECT_EQ(history<ArrayOfStructures<true>>(seed), expected);
         EXPECT_EQ(history<ErasedArray>(seed), expected);
+        EXPECT_EQ((history<Keyed<std::unordered_map<std::uint64_t, Attributes>>>(seed)), expected);
+        EXPECT_EQ((history<Keyed<std::map<std::uint64_t, Attributes>>>(seed)), expected);
         EXPECT_EQ(history<StructureOfArrays<false>>(seed), expected);
         EXPECT_EQ(history<StructureOfArrays<true>>(seed), expected);
     }
@@ -56,7 +60,7 @@ TEST(StorageExperiment, HasEveryFindingOnce) {
         EXPECT_LE(finding.low, finding.value);
         EXPECT_LE(finding.value, finding.high);
     }
-    EXPECT_EQ(names.size(), 30u);
+    EXPECT_EQ(names.size(), 35u);
 }
 
 }  // namespace
