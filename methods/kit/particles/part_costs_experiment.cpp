@@ -26,15 +26,20 @@ namespace {
 using findings::secondsOf;
 using Work = std::function<void()>;
 
-/// The median over `repetitions` of the time of `above` over that of `below`, after one run of each.
-Finding timeRatio(std::string quantity, int repetitions, const Work& above, const Work& below) {
+/// Appends `repetitions` ratios of the time of `above` to that of `below`, after one run of each.
+void addRatios(std::vector<double>& ratios, int repetitions, const Work& above, const Work& below) {
     above();
     below();
-    std::vector<double> ratios;
     for (int k = 0; k < repetitions; ++k) {
         const double first = secondsOf(above);
         ratios.push_back(first / secondsOf(below));
     }
+}
+
+/// Their median.
+Finding timeRatio(std::string quantity, int repetitions, const Work& above, const Work& below) {
+    std::vector<double> ratios;
+    addRatios(ratios, repetitions, above, below);
     return findings::medianOf(std::move(quantity), std::move(ratios));
 }
 
@@ -87,11 +92,12 @@ void measureBall(std::uint64_t seed, const Sizes& sizes, std::vector<Finding>& f
             need(sum.x + sum.y + sum.z);
         };
     };
+    const int repetitions = 5 * sizes.repetitions;  // they are short
     const Work rejection = drawing(pointByRejection, 1), angles = drawing(pointByAngles, 1),
                twice = drawing(pointByRejection, 2);
-    findings.push_back(timeRatio("rejection_over_angles", sizes.repetitions, rejection, angles));
-    findings.push_back(timeRatio("rejection_over_two_rejections", sizes.repetitions, rejection, twice));
-    findings.push_back(timeRatio("rejection_of_equals", sizes.repetitions, rejection, rejection));
+    findings.push_back(timeRatio("rejection_over_angles", repetitions, rejection, angles));
+    findings.push_back(timeRatio("rejection_over_two_rejections", repetitions, rejection, twice));
+    findings.push_back(timeRatio("rejection_of_equals", repetitions, rejection, rejection));
 }
 
 // --- Steps of a system.
@@ -126,6 +132,12 @@ force = [ {} ]
         for (double time = 0; time < longestSeconds; time += stepSeconds) step();  // until births and deaths balance
     }
     void step() { system_.update({scene_, state_, stepSeconds, particles_}); }
+    [[nodiscard]] Work steps() {
+        return [this] {
+            constexpr int count = 5;
+            for (int k = 0; k < count; ++k) step();
+        };
+    }
 
  private:
     scene::Scene scene_;
@@ -134,12 +146,17 @@ force = [ {} ]
     std::int64_t particles_;
 };
 
-/// The time of a step of one system over that of another.
+/// The time of a step of one system over that of another. Both are made several times, because their speed also depends
+/// on the memory that they happen to get.
 Finding stepRatio(std::string quantity, std::uint64_t seed, const Sizes& sizes, const Parts& above,
                   const Parts& below) {
-    SteppedSystem first(above, seed, sizes.particles), second(below, seed, sizes.particles);
-    return timeRatio(
-        std::move(quantity), sizes.repetitions, [&] { first.step(); }, [&] { second.step(); });
+    constexpr int makes = 5;
+    std::vector<double> ratios;
+    for (int make = 0; make < makes; ++make) {
+        SteppedSystem first(above, seed, sizes.particles), second(below, seed, sizes.particles);
+        addRatios(ratios, sizes.repetitions, first.steps(), second.steps());
+    }
+    return findings::medianOf(std::move(quantity), std::move(ratios));
 }
 
 void measureSources(std::uint64_t seed, const Sizes& sizes, std::vector<Finding>& findings) {
@@ -289,7 +306,7 @@ ExperimentInfo describe() {
         "Measures the cost of parts that the thesis calls fast or efficient over that of their alternatives.";
     info.source = "Thesis";
     info.run = [](ExperimentContext& context) {
-        return measurePartCosts(context.seed(), {100'000, 2'000, context.quick() ? 9 : 25});
+        return measurePartCosts(context.seed(), {100'000, 10'000, context.quick() ? 9 : 25});
     };
     return info;
 }

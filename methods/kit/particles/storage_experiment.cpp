@@ -175,9 +175,9 @@ using CountedTable = std::pmr::unordered_map<Key, Value>;
 template <typename Key, typename Value>
 using CountedTree = std::pmr::map<Key, Value>;
 
-/// The containers that the thesis leaves out, over a list.
+/// The containers that the thesis leaves out, over a list that has no pool either.
 void measureKeyed(std::uint64_t seed, std::size_t particles, int repetitions, std::vector<Finding>& findings) {
-    Subject<List<true>> list(seed, particles);
+    Subject<List<false>> list(seed, particles);
     Subject<HashTable> table(seed, particles);
     Subject<Tree> tree(seed, particles);
     Times ofList, ofTable, ofTree;
