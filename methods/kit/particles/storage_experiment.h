@@ -278,7 +278,8 @@ class StructureOfArrays {
 ///
 /// scan_list_over_soa, scan_aos_over_soa: time of a scan over that of the structure of arrays, all with a pool.
 /// scan_list_over_aos: the cost of the links alone.
-/// scan_hash_over_list, scan_tree_over_list: a hash table and a red-black tree over the list, all without a pool.
+/// scan_hash_over_list, scan_tree_over_list: for 25,000 particles, a hash table and a red-black tree over
+/// the list, all without a pool; each of nine times with new nodes.
 /// churn_without_over_with_list, …_aos, …_soa: time of removing dead particles and adding newborns, without the pool
 /// over with it.
 /// allocation_without_over_with_list: the same without the walk that finds the dead: time of freeing and allocating
