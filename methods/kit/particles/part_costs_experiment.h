@@ -1,4 +1,5 @@
-// Measures the sentences of the thesis that call one way of computing particles cheaper than another (claims P3 to P8).
+// Measures the sentences of the thesis that call one way of computing particles cheaper than another (claims P3 to P6,
+// P16).
 //
 // Units: m, m/s, s. Threads: one, whose CPU time is measured.
 // Source: Thesis, 4.2.1 (point source), 4.2.3 (rejection), 4.4.1 (constant colour), 5.3.2 (bounce), 6.1.5 (meshes).
@@ -29,7 +30,8 @@ struct Sizes {
 /// bounce_printed_over_exact: steps of a system on two discs, at the current place as printed over at the point of
 /// impact; one_bounce_over_eight, bounce_of_equals: controls.
 /// sphere_over_facets, tree_over_sphere: paths of particles near a mesh of 1,280 triangles: a bounding sphere before
-/// all facets over all facets, and a tree of boxes over the sphere; facets_of_equals: a control.
+/// all facets over all facets, and a tree of boxes over the sphere; facets_of_equals: a control. hits_of_sphere,
+/// hits_of_tree: the hits that each finds over those of all facets.
 [[nodiscard]] DUSTBENCH_API ExperimentInfo describe();
 [[nodiscard]] std::vector<Finding> measurePartCosts(std::uint64_t seed, const Sizes& sizes);
 

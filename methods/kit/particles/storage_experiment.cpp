@@ -3,6 +3,7 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <forward_list>
 #include <map>
 #include <memory_resource>
 #include <unordered_map>
@@ -197,7 +198,11 @@ void measureKeyed(std::uint64_t seed, std::size_t particles, std::vector<Finding
     findings.push_back(ratioOf("scan_tree_over_list", ofTree, ofList));
     findings.push_back(bytesOverList<CountedTable>("bytes_hash_over_list", particles));
     findings.push_back(bytesOverList<CountedTree>("bytes_tree_over_list", particles));
-    findings.push_back({"bytes_list_over_list", 1, 1, 1, 1});
+    CountedMemory memory;
+    const std::pmr::forward_list<Attributes> standardList(particles, Attributes{}, &memory);
+    const double bytes = static_cast<double>(memory.bytes()) / static_cast<double>(particles) /
+                         static_cast<double>(List<true>::bytesPerParticle());
+    findings.push_back({"bytes_list_over_list", bytes, bytes, bytes, 1});
 }
 
 }  // namespace

@@ -290,7 +290,8 @@ class StructureOfArrays {
 /// capacity, over a list; growth_moved_array_over_list: an array that is moved completely at each step.
 /// bytes_list_over_array: bytes of a particle with its link over those of the particle; …_of_places: of a particle with
 /// only a position, a control. bytes_hash_over_list, bytes_tree_over_list: bytes that a hash table and a tree allocate
-/// per particle over those of the list; bytes_list_over_list: 1, a control.
+/// per particle over those of the list; bytes_list_over_list: of the
+/// standard library's list, a control.
 /// scan_twice: an array scanned twice over once, a control.
 /// allocation_of_equals, churn_of_equals, growth_of_equals, scan_of_equals: controls, one list and one array of
 /// structures measured twice. scan_ns_…, churn_ns_…: nanoseconds per particle and step, by `list`, `aos`, `soa`, with
